@@ -1,0 +1,74 @@
+"""Exact boundaries and nearest-site queries of solids defined by constructive solid geometry.
+
+>>> import decomp
+>>> plate = decomp.Block((0, 0, 0), (4, 4, 2), name="plate")
+>>> hole = decomp.Cylinder((2, 2, -1), (2, 2, 3), 1, name="hole")
+>>> part = decomp.Geometry(plate - hole)
+>>> [face.name for face in part.regions[0].faces]
+['plate.xmin', 'plate.xmax', 'plate.ymin', 'plate.ymax', 'plate.zmin', 'plate.zmax', 'hole.side']
+>>> round(part.regions[0].volume, 6)
+25.716815
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from decomp.boundary.topology import Convexity as Convexity
+    from decomp.boundary.topology import Edge as Edge
+    from decomp.boundary.topology import Face as Face
+    from decomp.boundary.topology import RegionBoundary as RegionBoundary
+    from decomp.boundary.topology import Vertex as Vertex
+    from decomp.csg.model import Model as Model
+    from decomp.csg.model import Region as Region
+    from decomp.csg.model import model as model
+    from decomp.csg.primitives import Block as Block
+    from decomp.csg.primitives import Cone as Cone
+    from decomp.csg.primitives import Cylinder as Cylinder
+    from decomp.csg.primitives import HalfSpace as HalfSpace
+    from decomp.csg.primitives import InfiniteCone as InfiniteCone
+    from decomp.csg.primitives import InfiniteCylinder as InfiniteCylinder
+    from decomp.csg.primitives import Sphere as Sphere
+    from decomp.csg.primitives import Torus as Torus
+    from decomp.csg.solid import Solid as Solid
+    from decomp.csg.solid import intersection as intersection
+    from decomp.csg.solid import union as union
+    from decomp.errors import DecompError as DecompError
+    from decomp.formats import load as load
+    from decomp.formats import save as save
+    from decomp.geometry import Geometry as Geometry
+
+_HOMES = {
+    "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
+    "decomp.csg.model": ("Model", "Region", "model"),
+    "decomp.csg.primitives": (
+        "Block",
+        "Cone",
+        "Cylinder",
+        "HalfSpace",
+        "InfiniteCone",
+        "InfiniteCylinder",
+        "Sphere",
+        "Torus",
+    ),
+    "decomp.csg.solid": ("Solid", "intersection", "union"),
+    "decomp.errors": ("DecompError",),
+    "decomp.formats": ("load", "save"),
+    "decomp.geometry": ("Geometry",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = sorted(_HOME_OF)  # noqa: PLE0605
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name where it is first used, so that the command line starts fast."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'decomp' has no attribute {name!r}")
+    return getattr(import_module(_HOME_OF[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_HOME_OF})

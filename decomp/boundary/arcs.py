@@ -1,0 +1,180 @@
+"""The arrangement of all carriers along their intersection curves.
+
+Every pair of carriers gives curves; every curve is cut where a further carrier crosses or touches
+it. Between two cuts the signs of all other carriers are constant, so one point decides an arc.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from decomp.csg.halfspaces import HalfSpaceForm
+from decomp.curves import crossing_candidates, crossings, intersect, meeting_pairs
+from decomp.curves.base import Curve
+from decomp.vectors import Array, norm
+
+
+@dataclass(frozen=True, eq=False)
+class Arc:
+    """A piece of an intersection curve between two cuts.
+
+    Args:
+        curve: index into `Arrangement.curves`.
+        start, end: parameters, start < end; `end` may pass the end of a closed curve's domain.
+        whole: whether it is a closed curve that nothing cuts.
+    """
+
+    curve: int
+    start: float
+    end: float
+    whole: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """An isolated point where two carriers touch without crossing."""
+
+    carriers: tuple[int, int]
+    point: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Arrangement:
+    """Curves with the carriers that hold them, their arcs, and point contacts.
+
+    Args:
+        form: the carriers and their program.
+        radius: everything within this distance of `form.centre` was looked at.
+        curves: pairwise different curves.
+        carriers: for each curve the carriers that contain it, two or more, ascending.
+        arcs: the curves' pieces.
+        contacts: isolated touches.
+    """
+
+    form: HalfSpaceForm
+    radius: float
+    curves: tuple[Curve, ...]
+    carriers: tuple[tuple[int, ...], ...]
+    arcs: tuple[Arc, ...]
+    contacts: tuple[Contact, ...]
+
+    def leaves_window(self, point: Array) -> bool:
+        """Whether a curve's end is there only because the window ends."""
+        return float(norm(point - self.form.centre)) > 0.999 * self.radius
+
+
+def arrange(form: HalfSpaceForm, radius: float) -> Arrangement:
+    """Intersect all pairs of carriers within `radius` of the form's centre."""
+    builder = _Arranger(form, radius)
+    pairs = meeting_pairs(form.carriers, form.centre, radius, form.tolerance)
+    for i, j in pairs:
+        builder.add_pair(i, j)
+    arcs = [arc for index in range(len(builder.curves)) for arc in builder.cut(index)]
+    return Arrangement(
+        form,
+        radius,
+        tuple(builder.curves),
+        tuple(builder.carriers),
+        tuple(arcs),
+        tuple(builder.contacts),
+    )
+
+
+class _Arranger:
+    """Collects curves without repeating those that lie on three or more carriers."""
+
+    def __init__(self, form: HalfSpaceForm, radius: float) -> None:
+        self.form, self.radius = form, radius
+        self.curves: list[Curve] = []
+        self.carriers: list[tuple[int, ...]] = []
+        self.contacts: list[Contact] = []
+        self._cuts: list[list[Array]] = []
+        self._shared: dict[tuple[int, ...], list[int]] = {}
+
+    def add_pair(self, i: int, j: int) -> None:
+        form = self.form
+        found = intersect(
+            form.carriers[i], form.carriers[j], form.centre, self.radius, form.tolerance
+        )
+        self.contacts.extend(Contact((i, j), point) for point in found.contacts)
+        for piece in found.curves:
+            curve = piece.curve
+            holding, cuts = [i, j], []
+            for k in crossing_candidates(curve, form.carriers):
+                if k in (i, j):
+                    continue
+                met = crossings(curve, form.carriers[k], form.tolerance)
+                if met.contained:
+                    holding.append(int(k))
+                elif len(met.parameters):
+                    cuts.append(met.parameters)
+            key = tuple(sorted(holding))
+            if len(key) > 2 and self._known(key, curve):
+                continue
+            at_nodes = self._parameters_of(curve, found.nodes)
+            self.curves.append(curve)
+            self.carriers.append(key)
+            self._cuts.append([*cuts, at_nodes])
+            self._shared.setdefault(key, []).append(len(self.curves) - 1)
+
+    def cut(self, index: int) -> list[Arc]:
+        """The arcs of one curve."""
+        curve, tolerance = self.curves[index], self.form.tolerance
+        low, high = curve.domain
+        cuts = np.sort(np.concatenate([*self._cuts[index], np.empty(0)]))
+        if curve.closed:
+            cuts = _distinct(curve, low + np.mod(cuts - low, high - low), tolerance, high - low)
+            if not len(cuts):
+                return [Arc(index, low, high, True)]
+            ends = np.append(cuts, cuts[0] + high - low)
+        else:
+            ends = _distinct(curve, np.concatenate([[low], cuts, [high]]), tolerance, None)
+        return [Arc(index, float(a), float(b), False) for a, b in pairwise(ends)]
+
+    def _known(self, key: tuple[int, ...], curve: Curve) -> bool:
+        """Whether a curve on the same carriers runs through the same place already."""
+        low, high = curve.domain
+        probe = curve.point(np.array([low + 0.377 * (high - low)]))
+        for other in self._shared.get(key, []):
+            known = self.curves[other]
+            near = known.point(known.parameter(probe))
+            if float(norm(near - probe)[0]) <= 10 * self.form.tolerance:
+                return True
+        return False
+
+    def _parameters_of(self, curve: Curve, points: Array) -> Array:
+        """Parameters of those points that lie on the curve."""
+        if not len(points):
+            return np.empty(0)
+        parameters = np.atleast_1d(curve.parameter(points))
+        gap = norm(curve.point(parameters) - points)
+        # nodes are double points, located to the square root of the working precision
+        return np.asarray(parameters[gap <= 1e-6 * self.form.scale])
+
+
+def _distinct(curve: Curve, cuts: Array, tolerance: float, period: float | None) -> Array:
+    """Sort parameters and drop those whose points coincide; the first and last are kept."""
+    cuts = np.sort(cuts)
+    if len(cuts) < 2:
+        return cuts
+    points = curve.point(cuts)
+    middle = curve.point((cuts[1:] + cuts[:-1]) / 2)
+    near = (norm(points[1:] - points[:-1]) <= 10 * tolerance) & (
+        norm(middle - points[:-1]) <= 10 * tolerance
+    )
+    keep = np.ones(len(cuts), dtype=np.bool_)
+    keep[1:] = ~near
+    if period is None:
+        last = cuts[-1]
+        cuts = cuts[keep]
+        cuts[-1] = last
+    else:
+        cuts = cuts[keep]
+        around = np.array([cuts[0], (cuts[-1] + cuts[0] + period) / 2, cuts[-1]])
+        wrap = curve.point(curve.wrapped(around))
+        if len(cuts) > 1 and norm(wrap - wrap[0]).max() <= 10 * tolerance:
+            cuts = cuts[:-1]
+    return cuts

@@ -1,0 +1,77 @@
+"""The axis-parallel box around a region's boundary, exact on every carrier."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from decomp.boundary.faces import RawFace
+from decomp.boundary.member import Member
+from decomp.boundary.topology import Edge
+from decomp.carriers import Carrier, Sphere, Torus
+from decomp.csg.halfspaces import HalfSpaceForm
+from decomp.vectors import Array, norm
+
+
+def region_bounds(
+    form: HalfSpaceForm, member: Member, faces: Sequence[RawFace], edges: Sequence[Edge]
+) -> Array:
+    """Corners (2, 3) of the box.
+
+    A coordinate is extreme on an edge, or inside a face where its normal is an axis of the box,
+    which happens on spheres and tori only (on planes, cylinders and cones such points come in
+    lines, which end at an edge).
+    """
+    points = [edge.samples for edge in edges]
+    points += [_extremes(edge) for edge in edges if edge.curve.kind != "line"]
+    for face in faces:
+        candidates = _axis_points(form.carriers[face.carrier])
+        if len(candidates):
+            on = member.is_face(face.carrier, face.outward, candidates)
+            points.append(candidates[on])
+    cloud = np.concatenate(points)
+    return np.array([cloud.min(axis=0), cloud.max(axis=0)])
+
+
+def _axis_points(carrier: Carrier) -> Array:
+    """Points where the normal is parallel to a coordinate axis."""
+    units = np.concatenate([np.eye(3), -np.eye(3)])
+    match carrier:
+        case Sphere():
+            return np.asarray(carrier.centre + carrier.radius * units)
+        case Torus():
+            radial = units - (units @ carrier.axis)[:, None] * carrier.axis
+            length = norm(radial)
+            flat = length > 1e-12
+            spine = carrier.centre + carrier.major * radial[flat] / length[flat, None]
+            both = [spine + s * carrier.minor * units[flat] for s in (1, -1)]
+            top = carrier.centre + carrier.major * _ring(carrier.axis)
+            level = [top + s * carrier.minor * carrier.axis for s in (1, -1)]
+            return np.concatenate([*both, *(level if not flat.all() else [])])
+    return np.empty((0, 3))
+
+
+def _ring(axis: Array) -> Array:
+    """Unit vectors across an axis."""
+    x = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    x = np.cross(axis, x)
+    x = x / norm(x)
+    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)[:, None]
+    return np.asarray(np.cos(angles) * x + np.sin(angles) * np.cross(axis, x))
+
+
+def _extremes(edge: Edge) -> Array:
+    """Points of a curved edge where a coordinate is stationary."""
+    t = np.linspace(edge.start, edge.end, 4 * len(edge.samples) + 1)
+    slope = edge.curve.derivative(edge.curve.wrapped(t))
+    found = [np.empty(0)]
+    for k in range(3):
+        turn = np.flatnonzero(slope[:-1, k] * slope[1:, k] < 0)
+        low, high, sign = t[turn], t[turn + 1], slope[turn, k]
+        for _ in range(50):
+            middle = (low + high) / 2
+            same = edge.curve.derivative(edge.curve.wrapped(middle))[..., k] * sign > 0
+            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        found.append(low)
+    return edge.curve.point(edge.curve.wrapped(np.concatenate(found)))

@@ -1,0 +1,147 @@
+"""What must hold before a boundary is handed out: bounded, disjoint, manifold regions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.boundary.arcs import Arrangement, Contact
+from decomp.boundary.member import Member
+from decomp.boundary.wedges import Star
+from decomp.carriers import Cone, Cylinder, Plane
+from decomp.csg.halfspaces import HalfSpaceForm
+from decomp.errors import ContactError, OverlapError, UnboundedRegionError
+from decomp.vectors import Array, norm, perpendicular, place
+
+
+def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
+    """Raise UnboundedRegionError if the region reaches the window's end.
+
+    Its edges are checked where they are made. A face that reaches infinity without such an edge
+    covers the far end of its carrier; a region without such a face holds all far points or none.
+    """
+    form, radius = arrangement.form, arrangement.radius
+    for index, carrier in enumerate(form.carriers):
+        for point in _far_points(carrier, form.centre, radius):
+            inner, outer = member.sides_at(index, point)
+            if bool(inner) != bool(outer):
+                _raise_unbounded(member, point)
+    odd_direction = np.array([0.5331, -0.6207, 0.5747])
+    far = form.centre + 4 * radius * odd_direction / norm(odd_direction)
+    if bool(member.holds(form.signed_distances(far) < 0)):
+        _raise_unbounded(member, far)
+
+
+def _raise_unbounded(member: Member, point: Array) -> None:
+    away = point - member.form.centre
+    raise UnboundedRegionError(
+        f"region {member.name!r} is unbounded: it reaches infinity in direction "
+        f"{place(away / norm(away))}; intersect it with a block or add half-spaces"
+    )
+
+
+def _far_points(carrier: object, centre: Array, radius: float) -> list[Array]:
+    """A point on every end of an infinite carrier, away from the window's middle."""
+    match carrier:
+        case Plane():
+            foot = carrier.foot(centre)
+            # an odd direction, so that it does not run along another carrier's symmetry
+            x = perpendicular(carrier.normal_vector)
+            y = np.cross(carrier.normal_vector, x)
+            return [np.asarray(foot + 4 * radius * (np.cos(0.7391) * x + np.sin(0.7391) * y))]
+        case Cylinder():
+            ends = [centre + s * 4 * radius * carrier.axis for s in (1.0, -1.0)]
+            side = _odd_side(carrier.axis)
+            return [np.asarray(carrier.foot(end + 1e-3 * radius * side)) for end in ends]
+        case Cone():
+            start = carrier.apex + 4 * radius * carrier.axis
+            return [np.asarray(carrier.foot(start + 8 * radius * _odd_side(carrier.axis)))]
+    return []
+
+
+def _odd_side(axis: Array) -> Array:
+    x = perpendicular(axis)
+    return np.asarray(np.cos(0.7391) * x + np.sin(0.7391) * np.cross(axis, x))
+
+
+def refuse_overlaps(form: HalfSpaceForm, arrangement: Arrangement, stars: list[Star]) -> None:
+    """Raise OverlapError if two regions share interior points.
+
+    Their common part has a boundary, which has an edge, where a wedge is filled twice, or else is
+    a whole sphere or torus.
+    """
+    if len(form.names) < 2:
+        return
+    for star in stars:
+        for wedge in np.flatnonzero(star.filled.sum(axis=1) > 1):
+            _raise_overlap(form, star.filled[wedge], _point_in_wedge(form, star, int(wedge)))
+    touched = {k for star in stars for k in (s.carrier for s in star.sheets)}
+    rng = np.random.default_rng(0)
+    for index, carrier in enumerate(form.carriers):
+        if index in touched and not isinstance(carrier, (Plane, Cylinder, Cone)):
+            continue
+        scatter = form.centre + form.scale * rng.normal(size=(64, 3))
+        points = carrier.project(scatter)
+        for side in (True, False):
+            inside = form.signed_distances(points) < 0
+            inside[:, index] = side
+            filled = form.program.evaluate(inside)
+            double = np.flatnonzero(filled.sum(axis=1) > 1)
+            if len(double):
+                row = int(double[0])
+                normal = carrier.normal(points[row])
+                step = np.asarray(points[row] + (-1 if side else 1) * 1e-6 * form.scale * normal)
+                _raise_overlap(form, filled[row], step)
+
+
+def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
+    first = star.sheets[wedge]
+    second = star.sheets[(wedge + 1) % len(star.sheets)]
+    between = first.direction + second.direction
+    gap = (second.angle - first.angle) % (2 * np.pi)
+    if gap > np.pi:
+        between = -between
+    if float(norm(between)) < 1e-6:
+        between = np.cross(np.cross(first.direction, second.direction), first.direction)
+    for step in form.scale * 10.0 ** -np.arange(1, 9):
+        point = star.point + step * between / (norm(between) or 1.0)
+        if form.regions_at(point).sum() > 1:
+            return np.asarray(point)
+    return star.point
+
+
+def _raise_overlap(form: HalfSpaceForm, filled: Array, point: Array) -> None:
+    names = [form.names[k] for k in np.flatnonzero(filled)]
+    raise OverlapError(
+        f"regions {names[0]!r} and {names[1]!r} overlap: both hold the point {place(point)}; "
+        "subtract one from the other"
+    )
+
+
+def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Member) -> None:
+    """Raise ContactError if the region's boundary touches itself at an isolated point.
+
+    Two carriers that touch leave three layers along their common normal: below both, between
+    them all around the point, above both. The region is pinched when it fills only the middle
+    layer, or all but the middle one.
+    """
+    form, point = arrangement.form, contact.point
+    i, j = contact.carriers
+    a, b = form.carriers[i], form.carriers[j]
+    normal = a.normal(point)
+    agree = float(normal @ b.normal(point)) > 0
+    x = perpendicular(normal)
+    lift = 0.0
+    for direction in (x, np.cross(normal, x)):
+        bend_b = float(b.normal_curvature(point, direction)) * (1 if agree else -1)
+        lift += float(a.normal_curvature(point, direction)) - bend_b
+    above = lift > 0  # b runs above a, seen along a's normal
+    inside = np.repeat((form.signed_distances(point) < 0)[None, :], 3, axis=0)
+    inside[:, i] = [True, not above, False]
+    inside[:, j] = [agree, agree if above else not agree, not agree]
+    below, between, beyond = member.holds(inside)
+    if below == beyond != between:
+        raise ContactError(
+            f"region {member.name!r} touches itself at the point {place(point)}, where "
+            f"{form.carrier_name(i)} and {form.carrier_name(j)} are tangent: leave a gap or let "
+            "the parts overlap"
+        )

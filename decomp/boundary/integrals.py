@@ -1,0 +1,218 @@
+"""Area of faces and volume of regions as line integrals along edges, exact up to quadrature.
+
+On each carrier, in coordinates (u, v) that are right-handed along the outward normal, the area
+element is w(v) du dv. With W' = w, Green's theorem gives the area of a face with its boundary on
+the left as -integral of W(v) du. The volume follows from the divergence theorem,
+3 V = sum over faces of the integral of p . n, and from the vector area, 1/2 integral of p x dp.
+
+    plane     area = 1/2 integral of n . p x dp
+    cylinder  u = angle, v = z          W = r z
+    cone      u = angle, v = slant s    W = s^2 sin(angle) / 2
+    sphere    u = longitude, v = latitude, W = r^2 (1 + sin v); the pole where this is singular
+              lies outside every face
+    torus     u = around, v = tube      W = r (R v + r sin v), v unwrapped
+
+On a torus v is known up to full turns only, so the area is known up to multiples of the whole
+torus's area, which decides it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.edges import RawEdge
+from decomp.boundary.faces import RawFace
+from decomp.boundary.loops import HalfEdge
+from decomp.boundary.torus_loops import torus_angles, winding
+from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers.axial import axial_split
+from decomp.vectors import Array, dot, norm
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+COARSE_NODES, COARSE_WEIGHTS = np.polynomial.legendre.leggauss(11)
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Quadrature along an edge: points (n, 3) and dp = derivative times weight (n, 3)."""
+
+    points: Array
+    steps: Array
+
+    @property
+    def length(self) -> float:
+        """Arc length."""
+        return float(norm(self.steps).sum())
+
+
+@dataclass(frozen=True)
+class FaceIntegrals:
+    """Area, and the flux: the integral of (p - origin) . n with the region's outward normal."""
+
+    area: float
+    flux: float
+
+
+def tracks(edge: RawEdge) -> tuple[Track, Track]:
+    """Fine and coarse quadrature along an edge; their difference tells the error."""
+    panels = _panels(edge)
+    return (
+        _track(edge, panels, NODES, WEIGHTS),
+        _track(edge, panels, COARSE_NODES, COARSE_WEIGHTS),
+    )
+
+
+def face_integrals(
+    face: RawFace,
+    carrier: Carrier,
+    edges: Sequence[RawEdge],
+    track_of: Callable[[int], Track],
+    origin: Array,
+    pole: Array | None,
+) -> FaceIntegrals:
+    """Area and flux of one face.
+
+    Args:
+        face: the face.
+        carrier: its carrier.
+        edges: the region's edges.
+        track_of: quadrature of an edge by index.
+        origin: (3,) reference point of the flux.
+        pole: on a sphere with edges, a unit direction outside the face.
+    """
+    sign = float(face.outward)
+    signed = [(sign * half.direction, track_of(half.edge)) for loop in face.loops for half in loop]
+    vector_area = np.zeros(3)
+    for s, track in signed:
+        vector_area += s * np.cross(track.points - origin, track.steps).sum(axis=0) / 2
+
+    match carrier:
+        case Plane():
+            area = float(vector_area @ carrier.normal_vector)
+            flux = float(carrier.signed_distance(origin)) * -area
+        case Cylinder():
+            area = -sum(s * _cylinder_term(carrier, t, origin) for s, t in signed)
+            flux = float((carrier.point - origin) @ vector_area) + carrier.radius * area
+        case Cone():
+            area = -sum(s * _cone_term(carrier, t) for s, t in signed)
+            flux = float((carrier.apex - origin) @ vector_area)
+        case Sphere():
+            area = 4 * np.pi * carrier.radius**2
+            if pole is not None:
+                area = -sum(s * _sphere_term(carrier, t, pole) for s, t in signed)
+            flux = float((carrier.centre - origin) @ vector_area) + carrier.radius * area
+        case Torus():
+            area, cosine = _torus_integrals(face, carrier, edges, signed)
+            flux = float((carrier.centre - origin) @ vector_area)
+            flux += carrier.major * cosine + carrier.minor * area
+        case _:
+            raise TypeError(f"no area formula for a {carrier.kind}")
+    return FaceIntegrals(float(area), sign * float(flux))
+
+
+def _panels(edge: RawEdge) -> Array:
+    """Parameters that divide an edge into panels on which it turns by at most about 45 degrees."""
+    count = 1 if edge.curve.kind == "line" else 8
+    fine = np.linspace(edge.start, edge.end, 8 * count + 1)
+    if edge.curve.kind == "line":
+        return np.linspace(edge.start, edge.end, 3)
+    tangents = edge.curve.derivative(edge.curve.wrapped((fine[1:] + fine[:-1]) / 2))
+    tangents = tangents / norm(tangents)[:, None]
+    turning = np.arccos(np.clip(dot(tangents[1:], tangents[:-1]), -1, 1))
+    progress = np.concatenate([[0], np.cumsum(turning + 0.05), [0]])
+    progress[-1] = progress[-2] + 0.05
+    wanted = np.arange(1, int(progress[-1] / (np.pi / 6)) + 1) * (np.pi / 6)
+    inner = np.interp(wanted, progress, fine)
+    return np.unique(np.concatenate([[edge.start], inner, [edge.end]]))
+
+
+def _track(edge: RawEdge, panels: Array, nodes: Array, weights: Array) -> Track:
+    half = np.diff(panels)[:, None] / 2
+    t = ((panels[1:] + panels[:-1])[:, None] / 2 + half * nodes).ravel()
+    t = edge.curve.wrapped(t)
+    steps = edge.curve.derivative(t) * (half * weights).ravel()[:, None]
+    return Track(edge.curve.point(t), steps)
+
+
+def _angle_steps(point: Array, axis: Array, track: Track) -> tuple[Array, Array, Array]:
+    """Height, distance from the axis and d(angle) about it along a track."""
+    z, rho, radial = axial_split(track.points, point, axis)
+    around = np.cross(axis, radial)
+    return z, rho, dot(around, track.steps)
+
+
+def _cylinder_term(cylinder: Cylinder, track: Track, origin: Array) -> float:
+    z, _, arc = _angle_steps(cylinder.point, cylinder.axis, track)
+    middle = float((origin - cylinder.point) @ cylinder.axis)
+    return float(((z - middle) * arc).sum())
+
+
+def _cone_term(cone: Cone, track: Track) -> float:
+    slant = norm(track.points - cone.apex)
+    _, _, arc = _angle_steps(cone.apex, cone.axis, track)
+    # d(angle) = arc / rho with rho = slant sin(angle)
+    return float((slant * arc).sum()) / 2
+
+
+def _sphere_term(sphere: Sphere, track: Track, pole: Array) -> float:
+    z, rho, arc = _angle_steps(sphere.centre, pole, track)
+    # r^2 (1 + z/r) arc / rho, with rho^2 = (r - z)(r + z)
+    return float((sphere.radius * rho * arc / (sphere.radius - z)).sum())
+
+
+def _torus_integrals(
+    face: RawFace,
+    torus: Torus,
+    edges: Sequence[RawEdge],
+    signed: Sequence[tuple[float, Track]],
+) -> tuple[float, float]:
+    """Area, and the integral of cos(tube), of a face on a torus."""
+    big, small = torus.major, torus.minor
+    turn = 2 * np.pi
+    whole = turn * turn * big * small
+    if not face.loops:
+        return whole, turn * turn * small**2 / 2
+    area = cosine = 0.0
+    position = 0
+    anchors: list[tuple[Array, int]] = []
+    for loop in face.loops:
+        own = signed[position : position + len(loop)]
+        position += len(loop)
+        tube, steps, turns, start = _unwrapped(face, torus, edges, loop, own)
+        area -= float((small * (big * tube + small * np.sin(tube)) * steps).sum())
+        second = tube / 2 + np.sin(2 * tube) / 4
+        cosine -= float((small * (big * np.sin(tube) + small * second) * steps).sum())
+        if turns != (0, 0):
+            anchors.append((start, turns[1]))
+    if len(anchors) == 2:
+        # the cut that joins the two loops which go around the torus
+        gap = float(anchors[1][0][0] - anchors[0][0][0])
+        shift = turn * anchors[0][1] * gap
+        area -= big * small * shift
+        cosine -= small**2 / 2 * shift
+    turns_missing = -np.floor(area / whole)
+    return area + turns_missing * whole, cosine + turns_missing * turn * turn * small**2 / 2
+
+
+def _unwrapped(
+    face: RawFace,
+    torus: Torus,
+    edges: Sequence[RawEdge],
+    loop: Sequence[HalfEdge],
+    own: Sequence[tuple[float, Track]],
+) -> tuple[Array, Array, tuple[int, int], Array]:
+    """A loop's quadrature: unwrapped tube angles and d(around); its turns; its start angles."""
+    wound = winding(torus, edges, loop, face.outward)
+    ordered = list(own) if face.outward > 0 else list(own)[::-1]
+    points, steps = [], []
+    for sign, track in ordered:
+        points.append(track.points if sign > 0 else track.points[::-1])
+        steps.append(track.steps if sign > 0 else -track.steps[::-1])
+    where, moves = np.concatenate(points), np.concatenate(steps)
+    start = wound.angles[0]
+    angles = np.unwrap(np.concatenate([start[None, :], torus_angles(torus, where)]), axis=0)[1:]
+    _, rho, arc = _angle_steps(torus.centre, torus.axis, Track(where, moves))
+    return angles[:, 1], arc / rho, wound.turns, start

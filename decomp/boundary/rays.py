@@ -1,0 +1,179 @@
+"""Walks along isolines of a carrier: which loop does one reach first?
+
+Two loops bound the same face if a path inside the face joins them. Rays are straight lines on
+planes, rulings on cylinders and cones, great circles on spheres, tube circles and latitudes on
+tori; where they cross an edge is found exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from decomp.boundary.edges import RawEdge
+from decomp.boundary.loops import LoopSet
+from decomp.boundary.member import Member
+from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers.axial import axial_split
+from decomp.curves import crossings
+from decomp.curves.base import Curve
+from decomp.curves.circle import Circle
+from decomp.curves.line import Line
+from decomp.vectors import Array, Bools, norm, perpendicular
+
+
+@dataclass(frozen=True, eq=False)
+class Walker:
+    """Rays on one side of one carrier, stopping at the loops of a `LoopSet`."""
+
+    member: Member
+    edges: Sequence[RawEdge]
+    loops: LoopSet
+    reach: float
+
+    @cached_property
+    def loop_of_edge(self) -> dict[int, list[int]]:
+        """The loops that each edge belongs to."""
+        result: dict[int, list[int]] = {}
+        for index, loop in enumerate(self.loops.loops):
+            for half in loop:
+                result.setdefault(half.edge, []).append(index)
+        return result
+
+    @cached_property
+    def crossing_carriers(self) -> list[int]:
+        """The carriers that bound the faces."""
+        flanks = (f for e in self.loop_of_edge for f in self.edges[e].flanks)
+        return sorted({f.carrier for f in flanks} - {self.loops.carrier})
+
+    @cached_property
+    def pole(self) -> Array:
+        """On a sphere: the unit direction of the point farthest from all faces of the set."""
+        sphere = self.member.form.carriers[self.loops.carrier]
+        assert isinstance(sphere, Sphere)
+        directions = _spread_directions(2000)
+        points = sphere.centre + sphere.radius * directions
+        off = ~self.on_face(points)
+        edge_points = self._edge_points()
+        outside = [directions[off]]
+        for half in (h for loop in self.loops.loops for h in loop):
+            edge = self.edges[half.edge]
+            flank = next(f for f in edge.flanks if f.carrier == self.loops.carrier)
+            for step in (1e-2, 1e-3, 1e-4):
+                beyond = edge.point - step * sphere.radius * flank.direction
+                outside.append(((beyond - sphere.centre) / norm(beyond - sphere.centre))[None, :])
+        candidates = np.concatenate(outside)
+        candidates = candidates[~self.on_face(sphere.centre + sphere.radius * candidates)]
+        gaps = [norm(edge_points - (sphere.centre + sphere.radius * c)).min() for c in candidates]
+        return np.asarray(candidates[int(np.argmax(gaps))])
+
+    def on_face(self, points: Array) -> Bools:
+        """Whether points on the carrier belong to a face of the set."""
+        return self.member.is_face(self.loops.carrier, self.loops.outward, points)
+
+    def upward(self, point: Array) -> Curve | None:
+        """The ray that leads away from `point` towards the outermost loop; None on a torus."""
+        carrier = self.member.form.carriers[self.loops.carrier]
+        span = (0.0, 4 * self.reach)
+        match carrier:
+            case Plane():
+                return Line(point, perpendicular(carrier.normal_vector), domain=span)
+            case Cylinder():
+                return Line(point, carrier.axis, domain=span)
+            case Cone():
+                away = point - carrier.apex
+                if float(norm(away)) == 0.0:
+                    return None
+                return Line(point, away / norm(away), domain=span)
+            case Sphere():
+                x = (point - carrier.centre) / carrier.radius
+                y = self.pole - (self.pole @ x) * x
+                length = float(norm(y))
+                side = y / length if length > 1e-12 else perpendicular(x)
+                return Circle(carrier.centre, x, side, carrier.radius)
+        return None
+
+    def around_torus(self, point: Array) -> list[Curve]:
+        """On a torus: the two circles through `point`, each in both directions."""
+        torus = self.member.form.carriers[self.loops.carrier]
+        assert isinstance(torus, Torus)
+        z, rho, radial = axial_split(point, torus.centre, torus.axis)
+        middle = torus.centre + torus.major * radial
+        out = (point - middle) / torus.minor
+        up = np.cross(radial, torus.axis)
+        tube = np.cross(up, out)
+        level = torus.centre + z * torus.axis
+        return [
+            Circle(middle, out, tube, torus.minor),
+            Circle(middle, out, -tube, torus.minor),
+            Circle(level, radial, up, float(rho)),
+            Circle(level, radial, -up, float(rho)),
+        ]
+
+    def height(self, points: Array) -> Array:
+        """How far up points lie in the sense of `upward`."""
+        carrier = self.member.form.carriers[self.loops.carrier]
+        match carrier:
+            case Plane():
+                return np.asarray(points @ perpendicular(carrier.normal_vector))
+            case Cylinder():
+                return np.asarray(points @ carrier.axis)
+            case Cone():
+                return norm(points - carrier.apex)
+            case Sphere():
+                return np.asarray(points @ self.pole)
+        return np.zeros(len(points))
+
+    def first_loop(self, ray: Curve, from_edge: bool) -> int | None:
+        """The loop that ends the face into which the ray leads.
+
+        Args:
+            ray: its start lies in a face of the set, or on an edge if `from_edge`.
+            from_edge: the start is on an edge; the ray counts only if it enters a face there.
+
+        Returns:
+            The loop's index; None if the ray does not enter a face, or meets no loop.
+        """
+        low, high = ray.domain
+        tolerance = self.member.form.tolerance
+        cuts: list[tuple[float, int]] = []
+        for k in self.crossing_carriers:
+            met = crossings(ray, self.member.form.carriers[k], tolerance)
+            cuts.extend((float(t), k) for t in met.parameters)
+        start = ray.point(np.array(low))
+        cuts = [
+            (t, k) for t, k in cuts if float(norm(ray.point(np.array(t)) - start)) > 20 * tolerance
+        ]
+        cuts.sort()
+        limits = np.array([low, *(t for t, _ in cuts), high])
+        within = self.on_face(ray.point((limits[1:] + limits[:-1]) / 2))
+        if from_edge and not within[0]:
+            return None
+        for (t, k), onward in zip(cuts, within[1:], strict=True):
+            if not onward:
+                return self._loop_at(ray.point(np.array(t)), k)
+        return None
+
+    def _loop_at(self, point: Array, carrier: int) -> int | None:
+        for index, loops in self.loop_of_edge.items():
+            edge = self.edges[index]
+            if carrier in (flank.carrier for flank in edge.flanks) and edge.holds(
+                point, 100 * self.member.form.tolerance
+            ):
+                return loops[0]
+        return None
+
+    def _edge_points(self) -> Array:
+        return np.concatenate([self.edges[e].sampled(33) for e in self.loop_of_edge])
+
+
+def _spread_directions(count: int) -> Array:
+    """Unit vectors (count, 3) spread evenly (a spherical Fibonacci lattice)."""
+    k = np.arange(count) + 0.5
+    z = 1 - 2 * k / count
+    angle = np.pi * (1 + np.sqrt(5)) * k
+    rho = np.sqrt(1 - z**2)
+    return np.stack([rho * np.cos(angle), rho * np.sin(angle), z], axis=-1)

@@ -1,0 +1,10 @@
+"""Carriers: the five untrimmed surfaces that bound every solid here."""
+
+from decomp.carriers.base import Carrier
+from decomp.carriers.cone import Cone
+from decomp.carriers.cylinder import Cylinder
+from decomp.carriers.plane import Plane
+from decomp.carriers.sphere import Sphere
+from decomp.carriers.torus import Torus
+
+__all__ = ["Carrier", "Cone", "Cylinder", "Plane", "Sphere", "Torus"]

@@ -1,0 +1,63 @@
+"""Infinite circular cylinder: distance rho from the axis equals the radius."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from decomp.carriers.axial import axial_split, axis_deviation, nearest_to_origin
+from decomp.carriers.base import Carrier, pack
+from decomp.similarity import Similarity
+from decomp.vectors import Array, dot
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinder(Carrier):
+    """The cylinder about the line through `point` along unit `axis`; that line is its
+    reflexive locus."""
+
+    point: Array
+    axis: Array
+    radius: float
+
+    kind: ClassVar[str] = "cylinder"
+    code: ClassVar[int] = 2
+    degree: ClassVar[int] = 2
+
+    def signed_distance(self, p: Array) -> Array:
+        _, rho, _ = axial_split(p, self.point, self.axis)
+        return np.asarray(rho - self.radius)
+
+    def foot(self, p: Array) -> Array:
+        z, _, outward = axial_split(p, self.point, self.axis)
+        return np.asarray(self.point + z[..., None] * self.axis + self.radius * outward)
+
+    def normal(self, q: Array) -> Array:
+        return axial_split(q, self.point, self.axis)[2]
+
+    def implicit(self, p: Array) -> Array:
+        away = p - self.point
+        square = dot(away, away) - dot(away, self.axis) ** 2
+        return np.asarray((square - self.radius**2) / (2 * self.radius))
+
+    def normal_curvature(self, q: Array, direction: Array) -> Array:
+        around = np.cross(self.axis, self.normal(q))
+        return np.asarray(dot(around, direction) ** 2 / self.radius)
+
+    def transformed(self, by: Similarity) -> Cylinder:
+        return Cylinder(by.points(self.point), by.directions(self.axis), by.scale * self.radius)
+
+    def coincides(self, other: Carrier, tolerance: float, reach: float) -> int:
+        if not isinstance(other, Cylinder):
+            return 0
+        gap = axis_deviation(self.point, self.axis, other.point, other.axis, reach)
+        return 1 if gap + abs(self.radius - other.radius) <= tolerance else 0
+
+    def features(self, reach: float) -> Array:
+        near = nearest_to_origin(self.point, self.axis)
+        return np.concatenate([near / reach, np.abs(self.axis), [self.radius / reach]])
+
+    def packed(self) -> Array:
+        return pack(self.point, self.axis, self.radius)

@@ -1,0 +1,100 @@
+"""Ring torus: distance from the spine circle equals the minor radius."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from decomp.carriers.axial import axial_split
+from decomp.carriers.base import Carrier, pack
+from decomp.similarity import Similarity
+from decomp.vectors import Array, dot, norm
+
+
+@dataclass(frozen=True, eq=False)
+class Torus(Carrier):
+    """The torus whose spine has radius `major` about `centre` in the plane across `axis`.
+
+    The reflexive locus is the spine (inside) and the axis (outside).
+    """
+
+    centre: Array
+    axis: Array
+    major: float
+    minor: float
+
+    kind: ClassVar[str] = "torus"
+    code: ClassVar[int] = 4
+    degree: ClassVar[int] = 4
+
+    def signed_distance(self, p: Array) -> Array:
+        z, rho, _ = axial_split(p, self.centre, self.axis)
+        return np.asarray(np.hypot(rho - self.major, z) - self.minor)
+
+    def foot(self, p: Array) -> Array:
+        spine, outward = self._spine(p)
+        return np.asarray(spine + self.minor * outward)
+
+    def normal(self, q: Array) -> Array:
+        return self._spine(q)[1]
+
+    def implicit(self, p: Array) -> Array:
+        away = p - self.centre
+        square = dot(away, away)
+        rho2 = square - dot(away, self.axis) ** 2
+        left = square + self.major**2 - self.minor**2
+        scale = 8 * self.major**2 * self.minor
+        return np.asarray((left**2 - 4 * self.major**2 * rho2) / scale)
+
+    def normal_curvature(self, q: Array, direction: Array) -> Array:
+        _, rho, radial = axial_split(q, self.centre, self.axis)
+        _, outward = self._spine(q)
+        around = np.cross(self.axis, radial)
+        across = np.cross(around, outward)
+        parallel = dot(outward, radial) / rho
+        return np.asarray(
+            dot(around, direction) ** 2 * parallel + dot(across, direction) ** 2 / self.minor
+        )
+
+    def transformed(self, by: Similarity) -> Torus:
+        return Torus(
+            by.points(self.centre),
+            by.directions(self.axis),
+            by.scale * self.major,
+            by.scale * self.minor,
+        )
+
+    def coincides(self, other: Carrier, tolerance: float, reach: float) -> int:
+        if not isinstance(other, Torus):
+            return 0
+        sign = 1.0 if float(dot(self.axis, other.axis)) > 0 else -1.0
+        gap = float(norm(self.centre - other.centre))
+        tilt = float(norm(self.axis - sign * other.axis)) * (self.major + self.minor)
+        size = abs(self.major - other.major) + abs(self.minor - other.minor)
+        return 1 if gap + tilt + size <= tolerance else 0
+
+    def features(self, reach: float) -> Array:
+        lengths = np.append(self.centre, [self.major, self.minor])
+        return np.concatenate([lengths / reach, np.abs(self.axis)])
+
+    def packed(self) -> Array:
+        return pack(self.centre, self.axis, self.major, self.minor)
+
+    def point(self, around: Array, tube: Array, x: Array, y: Array) -> Array:
+        """Points at angle `around` the axis (from x towards y) and angle `tube` in the tube."""
+        radial = np.cos(around)[..., None] * x + np.sin(around)[..., None] * y
+        rho = self.major + self.minor * np.cos(tube)
+        height = self.minor * np.sin(tube)
+        return np.asarray(self.centre + rho[..., None] * radial + height[..., None] * self.axis)
+
+    def _spine(self, p: Array) -> tuple[Array, Array]:
+        """Nearest spine point, and the unit direction from it to p."""
+        z, rho, radial = axial_split(p, self.centre, self.axis)
+        spine = self.centre + self.major * radial
+        out = (rho - self.major)[..., None] * radial + z[..., None] * self.axis
+        length = np.hypot(rho - self.major, z)
+        clear = length > 1e-300
+        outward = np.where(clear[..., None], out / np.where(clear, length, 1.0)[..., None], radial)
+        return spine, outward

@@ -1,0 +1,136 @@
+"""`decomp info`: what is in a model."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from decomp.boundary.build import Boundaries
+    from decomp.boundary.topology import RegionBoundary
+    from decomp.csg.model import Model
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "info",
+        help="volume, area, faces, edges and vertices of each region",
+        description="Print what is in a CSG model: for each region its volume, area, bounding "
+        "box, Euler characteristic, faces, edges and vertices. Volume and area come from exact "
+        "geometry by quadrature, with an estimate of the error.",
+    )
+    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Load, compute, print."""
+    from decomp.boundary.build import boundaries
+    from decomp.formats import load
+
+    model = load(options.model)
+    result = boundaries(model)
+    if options.json:
+        print(json.dumps(as_json(model, result), indent=1))
+    else:
+        print("\n".join(as_text(model, result)))
+
+
+def as_json(model: Model, result: Boundaries) -> dict[str, Any]:
+    """The model's contents as JSON values; lengths in the model's units."""
+    return {
+        "model": model.name,
+        "diagonal": result.diagonal,
+        "regions": [_region_json(region) for region in result.regions],
+        "ignored": [{"statement": i.statement, "line": i.line} for i in model.ignored],
+    }
+
+
+def _region_json(region: RegionBoundary) -> dict[str, Any]:
+    names = [face.name for face in region.faces]
+    return {
+        "name": region.name,
+        "volume": region.volume,
+        "volume_error": region.volume_error,
+        "area": region.area,
+        "area_error": region.area_error,
+        "bbox": region.bounds.tolist(),
+        "euler": region.euler,
+        "faces": [
+            {
+                "name": face.name,
+                "carrier": region.carriers[face.carrier].kind,
+                "area": face.area,
+                **({"options": dict(face.options)} if face.options else {}),
+            }
+            for face in region.faces
+        ],
+        "edges": [
+            {
+                "faces": [names[k] for k in edge.faces],
+                "curve": edge.curve.kind,
+                "convexity": edge.convexity.value,
+                "length": edge.length,
+            }
+            for edge in region.edges
+        ],
+        "vertices": [
+            {
+                "point": vertex.point.tolist(),
+                "faces": [names[k] for k in vertex.faces],
+                "convexity": vertex.convexity.value,
+            }
+            for vertex in region.vertices
+        ],
+    }
+
+
+def as_text(model: Model, result: Boundaries) -> list[str]:
+    """The model's contents as lines for people."""
+    lines = [f"model {model.name}: {_count(len(result.regions), 'region')}"]
+    lines.append(f"  diagonal {result.diagonal:.9g}")
+    for region in result.regions:
+        lines += ["", *_region_text(region)]
+    if model.ignored:
+        lines += ["", "ignored statements:"]
+        lines += [f"  line {entry.line}: {entry.statement}" for entry in model.ignored]
+    return lines
+
+
+def _region_text(region: RegionBoundary) -> list[str]:
+    low, high = (" ".join(f"{x + 0.0:.9g}" for x in corner) for corner in region.bounds)
+    lines = [
+        f"region {region.name}",
+        f"  volume  {region.volume:.12g}  (error below {region.volume_error:.1e})",
+        f"  area    {region.area:.12g}  (error below {region.area_error:.1e})",
+        f"  box     {low}  to  {high}",
+        f"  Euler characteristic {region.euler}",
+        f"  {_count(len(region.faces), 'face')}",
+    ]
+    width = max(len(face.name) for face in region.faces)
+    lines += [
+        f"    {face.name:<{width}}  {region.carriers[face.carrier].kind:<8}  area {face.area:.9g}"
+        for face in region.faces
+    ]
+    shapes = Counter((e.curve.kind, e.convexity.value) for e in region.edges)
+    lines.append(f"  {_count(len(region.edges), 'edge')}{_shapes(shapes)}")
+    kinds = Counter(("", v.convexity.value) for v in region.vertices)
+    plural = "vertex" if len(region.vertices) == 1 else "vertices"
+    lines.append(f"  {len(region.vertices)} {plural}{_shapes(kinds)}")
+    return lines
+
+
+def _shapes(counts: Counter[tuple[str, str]]) -> str:
+    parts = [
+        f"{count} {convexity} {kind}".rstrip() for (kind, convexity), count in sorted(counts.items())
+    ]
+    return f": {', '.join(parts)}" if parts else ""
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

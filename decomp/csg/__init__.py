@@ -1,0 +1,1 @@
+"""Constructive solid geometry: primitives, the Boolean tree, regions, half-space form."""

@@ -1,0 +1,141 @@
+"""A Boolean expression over carriers, as a graph of n-ary ANDs with inverted references.
+
+A reference is `2 * node + inverted`; node 0 is the constant TRUE, so reference 0 is TRUE and 1 is
+FALSE. Unions are ANDs by De Morgan's law. Equal nodes are one node, so idempotence, double
+complements, commutativity and contradictions cost nothing later.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from decomp.vectors import Bools, Ints
+
+TRUE = 0
+FALSE = 1
+
+
+def inverted(reference: int) -> int:
+    """The reference to the complement."""
+    return reference ^ 1
+
+
+@dataclass(frozen=True, eq=False)
+class Program:
+    """The graph in topological order, as arrays.
+
+    Args:
+        literal: carrier index (n,) that a node tests for "inside", -1 for an AND node.
+        start: offsets (n + 1,) into `operands`.
+        operands: references to earlier nodes, an AND node's parts.
+        roots: references (r,), one per region.
+    """
+
+    literal: Ints
+    start: Ints
+    operands: Ints
+    roots: Ints
+
+    def evaluate(self, inside: Bools) -> Bools:
+        """Evaluate every root.
+
+        Args:
+            inside: (..., n_carriers), whether a point counts as inside each carrier.
+
+        Returns:
+            (..., n_roots), whether it is in each region.
+        """
+        shape = inside.shape[:-1]
+        values = np.empty((len(self.literal), *shape), dtype=np.bool_)
+        for node, carrier in enumerate(self.literal):
+            if carrier >= 0:
+                values[node] = inside[..., carrier]
+                continue
+            values[node] = True
+            for ref in self.operands[self.start[node] : self.start[node + 1]]:
+                values[node] &= values[ref >> 1] ^ bool(ref & 1)
+        result = np.empty((*shape, len(self.roots)), dtype=np.bool_)
+        for k, ref in enumerate(self.roots):
+            result[..., k] = values[ref >> 1] ^ bool(ref & 1)
+        return result
+
+    def carriers_of(self, root: int) -> list[int]:
+        """Indices of the carriers that a root's value may depend on, in ascending order."""
+        needed = np.zeros(len(self.literal), dtype=np.bool_)
+        needed[self.roots[root] >> 1] = True
+        for node in range(len(self.literal) - 1, -1, -1):
+            if needed[node]:
+                needed[self.operands[self.start[node] : self.start[node + 1]] >> 1] = True
+        return sorted(int(c) for c in self.literal[needed] if c >= 0)
+
+
+class ProgramBuilder:
+    """Makes nodes, each only once."""
+
+    def __init__(self) -> None:
+        self._nodes: list[int | tuple[int, ...]] = [()]
+        self._known: dict[int | tuple[int, ...], int] = {(): 0}
+
+    def literal(self, carrier: int, inside: bool) -> int:
+        """Reference to "the point is inside (or outside) the carrier"."""
+        return self._reference(carrier) ^ (not inside)
+
+    def conjunction(self, references: Iterable[int]) -> int:
+        """Reference to the AND of `references`."""
+        parts = sorted(set(references) - {TRUE})
+        if FALSE in parts or any(a ^ 1 == b for a, b in pairwise(parts)):
+            return FALSE
+        return parts[0] if len(parts) == 1 else self._reference(tuple(parts))
+
+    def disjunction(self, references: Iterable[int]) -> int:
+        """Reference to the OR of `references`."""
+        return inverted(self.conjunction(inverted(r) for r in references))
+
+    def finish(self, roots: Sequence[int]) -> Program:
+        """Drop what no root needs, merge nested ANDs that nothing shares, and lay out arrays."""
+        uses = self._count_uses(roots)
+        number: dict[int, int] = {0: 0}
+        literal, start = [-1], [0, 0]
+        operands: list[int] = []
+        absorbed: dict[int, list[int]] = {}
+        for node in range(1, len(self._nodes)):
+            if not uses.get(node):
+                continue
+            content = self._nodes[node]
+            parts: list[int] = []
+            if isinstance(content, tuple):
+                for ref in content:
+                    parts.extend(absorbed.pop(ref >> 1, [ref]) if not ref & 1 else [ref])
+                if uses[node] == [False]:
+                    absorbed[node] = parts
+                    continue
+            number[node] = len(literal)
+            literal.append(-1 if isinstance(content, tuple) else content)
+            operands.extend(2 * number[ref >> 1] + (ref & 1) for ref in parts)
+            start.append(len(operands))
+        renumbered = [2 * number[ref >> 1] + (ref & 1) for ref in roots]
+        as_ints = [np.array(a, dtype=np.int64) for a in (literal, start, operands, renumbered)]
+        return Program(*as_ints)
+
+    def _count_uses(self, roots: Sequence[int]) -> dict[int, list[bool]]:
+        """For each needed node, its uses: `False` for a plain use in an AND, `True` otherwise."""
+        uses: dict[int, list[bool]] = {}
+        for ref in roots:
+            uses.setdefault(ref >> 1, []).append(True)
+        for node in range(len(self._nodes) - 1, 0, -1):
+            content = self._nodes[node]
+            if node in uses and isinstance(content, tuple):
+                for ref in content:
+                    uses.setdefault(ref >> 1, []).append(bool(ref & 1))
+        return uses
+
+    def _reference(self, content: int | tuple[int, ...]) -> int:
+        node = self._known.get(content)
+        if node is None:
+            node = self._known[content] = len(self._nodes)
+            self._nodes.append(content)
+        return 2 * node

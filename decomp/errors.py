@@ -1,0 +1,73 @@
+"""The one hierarchy of errors that users of `decomp` meet.
+
+Library code raises these and never prints or exits; the command line turns each class
+into one line on stderr and its `exit_code`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+class DecompError(Exception):
+    """Base of every error that `decomp` raises on purpose."""
+
+    exit_code = 1
+
+
+class InputError(DecompError):
+    """The user's input is wrong: a parameter, a file, a name."""
+
+    exit_code = 2
+
+
+class FileError(InputError):
+    """A model file cannot be used, at a known place where there is one.
+
+    Args:
+        message: what is wrong and what to do about it.
+        path: the file, if the text came from one.
+        line: 1-based line, if known.
+        column: 1-based column, if known.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        path: str | Path | None = None,
+        line: int | None = None,
+        column: int | None = None,
+    ) -> None:
+        self.message, self.path, self.line, self.column = message, path, line, column
+        place = [str(part) for part in (path, line, column) if part is not None]
+        super().__init__(f"{':'.join(place)}: {message}" if place else message)
+
+
+class ParseError(FileError):
+    """The text does not follow its format's grammar, or refers to something undefined."""
+
+
+class UnsupportedError(FileError):
+    """A construct lies outside blocks, spheres, cylinders, cones, tori and similarities."""
+
+
+class GeometryError(DecompError):
+    """The model is well-formed, but its geometry is not a solid that can be handled."""
+
+    exit_code = 3
+
+
+class EmptyRegionError(GeometryError):
+    """A region has no interior."""
+
+
+class UnboundedRegionError(GeometryError):
+    """A region reaches infinity."""
+
+
+class OverlapError(GeometryError):
+    """Two regions share interior points."""
+
+
+class ContactError(GeometryError):
+    """Parts of a boundary touch in a way that leaves it no manifold."""

@@ -1,0 +1,76 @@
+"""A model's exact geometry in one object: its regions' boundaries, and queries at points."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
+
+from decomp.boundary.build import Boundaries, boundaries
+from decomp.boundary.topology import RegionBoundary
+from decomp.csg.model import Model, model
+from decomp.csg.solid import Solid
+from decomp.formats import load
+from decomp.vectors import Array, Bools
+
+if TYPE_CHECKING:
+    from decomp.sites import Nearest, Site, SiteIndex
+
+
+class Geometry:
+    """Exact boundary and nearest-site queries of a model.
+
+    Args:
+        source: a model, a solid, a dict of named solids, or the path of a model file.
+
+    Raises:
+        FileError: the file cannot be read; its subclasses say where.
+        GeometryError: a region is empty, unbounded, overlaps another or touches itself.
+    """
+
+    def __init__(self, source: Model | Solid | dict[str, Solid] | str | Path) -> None:
+        if isinstance(source, (str, Path)):
+            source = load(source)
+        self.model: Model = source if isinstance(source, Model) else model(source)
+        self.boundaries: Boundaries = boundaries(self.model)
+
+    @property
+    def regions(self) -> tuple[RegionBoundary, ...]:
+        """The boundary of each region, in the model's order."""
+        return self.boundaries.regions
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the box around all regions."""
+        return self.boundaries.diagonal
+
+    @property
+    def sites(self) -> tuple[Site, ...]:
+        """What a point can be nearest to; `nearest` gives indices into it."""
+        return self.index.sites
+
+    @cached_property
+    def index(self) -> SiteIndex:
+        """The spatial structure behind the queries, built on first use."""
+        from decomp.sites import SiteIndex
+
+        found = self.boundaries
+        return SiteIndex(found.form, found.regions, lambda: found.outside, found.face_at)
+
+    def contains(self, points: ArrayLike) -> Bools:
+        """Whether points (n, 3) lie in some region: (n,) bool."""
+        return self.index.contains(points)
+
+    def region_of(self, points: ArrayLike) -> Array:
+        """The index (n,) of the region that holds each point (n, 3), -1 outside all."""
+        return self.index.region_of(points)
+
+    def nearest(self, points: ArrayLike) -> Nearest:
+        """The nearest site of the boundary of each point's own region, or of the outside."""
+        return self.index.nearest(points)
+
+    def distance(self, points: ArrayLike) -> Array:
+        """Signed distance (n,) to the boundary of each point's region, negative inside."""
+        return self.index.distance(points)

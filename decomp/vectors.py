@@ -1,0 +1,108 @@
+"""Arrays of points and vectors: the few operations that every geometry file needs."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from decomp.errors import InputError
+
+Array: TypeAlias = NDArray[np.float64]
+Bools: TypeAlias = NDArray[np.bool_]
+Ints: TypeAlias = NDArray[np.int64]
+
+
+def frozen(values: ArrayLike) -> Array:
+    """Return a read-only float copy of `values`."""
+    array = np.array(values, dtype=np.float64)
+    array.setflags(write=False)
+    return array
+
+
+def vector(values: ArrayLike, what: str) -> Array:
+    """Return three finite numbers as a read-only vector.
+
+    Raises:
+        InputError: not three finite numbers; the message names `what`.
+    """
+    try:
+        array = frozen(values)
+    except (TypeError, ValueError):
+        raise InputError(f"{what} must be three numbers, got {values!r}") from None
+    if array.shape != (3,):
+        raise InputError(f"{what} must be three numbers, got {values!r}")
+    if not np.isfinite(array).all():
+        raise InputError(f"{what} must be finite, got {place(array)}")
+    return array
+
+
+def direction(values: ArrayLike, what: str) -> Array:
+    """Return `values` scaled to unit length.
+
+    Raises:
+        InputError: not three finite numbers, or all of them zero.
+    """
+    array = vector(values, what)
+    scale = float(np.abs(array).max())
+    if scale == 0.0:
+        raise InputError(f"{what} must not be the zero vector")
+    array = array / scale
+    return frozen(array / np.linalg.norm(array))
+
+
+def number(value: Any, what: str) -> float:
+    """Return `value` as a finite float.
+
+    Raises:
+        InputError: not a finite number.
+    """
+    try:
+        result = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{what} must be a number, got {value!r}") from None
+    if not np.isfinite(result):
+        raise InputError(f"{what} must be finite, got {result}")
+    return result
+
+
+def positive(value: Any, what: str) -> float:
+    """Return `value` as a finite float above zero.
+
+    Raises:
+        InputError: not a finite number above zero.
+    """
+    result = number(value, what)
+    if result <= 0.0:
+        raise InputError(f"{what} must be positive, got {result:g}")
+    return result
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Inner products along the last axis."""
+    return np.asarray(np.einsum("...i,...i->...", a, b))
+
+
+def norm(a: Array) -> Array:
+    """Euclidean lengths along the last axis."""
+    return np.sqrt(dot(a, a))
+
+
+def perpendicular(axis: Array) -> Array:
+    """Return a unit vector at right angles to the unit vector `axis`."""
+    helper = np.zeros(3)
+    helper[int(np.argmin(np.abs(axis)))] = 1.0
+    side = np.cross(axis, helper)
+    return np.asarray(side / np.linalg.norm(side))
+
+
+def frame(axis: Array) -> tuple[Array, Array]:
+    """Return unit vectors x, y such that (x, y, axis) is right-handed and orthonormal."""
+    x = perpendicular(axis)
+    return x, np.cross(axis, x)
+
+
+def place(point: Array) -> str:
+    """A point as text for messages."""
+    return "(" + ", ".join(f"{x + 0.0:.6g}" for x in point) + ")"
