@@ -6,15 +6,17 @@ it. Between two cuts the signs of all other carriers are constant, so one point 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
+from decomp.csg.extents import BOX_SLACK, overlap
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves import crossing_candidates, crossings, intersect, meeting_pairs
 from decomp.curves.base import Curve
-from decomp.vectors import Array, norm
+from decomp.curves.line import Line
+from decomp.vectors import Array, Ints, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +71,10 @@ class Arrangement:
 def arrange(form: HalfSpaceForm, radius: float) -> Arrangement:
     """Intersect all pairs of carriers within `radius` of the form's centre."""
     builder = _Arranger(form, radius)
-    pairs = meeting_pairs(form.carriers, form.centre, radius, form.tolerance)
-    for i, j in pairs:
-        builder.add_pair(i, j)
+    boxes = form.carrier_boxes
+    for i, j in meeting_pairs(form.carriers, form.centre, radius, form.tolerance):
+        if overlap(boxes[i], boxes[j]):
+            builder.add_pair(i, j)
     arcs = [arc for index in range(len(builder.curves)) for arc in builder.cut(index)]
     return Arrangement(
         form,
@@ -100,10 +103,13 @@ class _Arranger:
             form.carriers[i], form.carriers[j], form.centre, self.radius, form.tolerance
         )
         self.contacts.extend(Contact((i, j), point) for point in found.contacts)
+        low, high = _common(form.carrier_boxes[i], form.carrier_boxes[j])
         for piece in found.curves:
-            curve = piece.curve
+            curve = _clipped(piece.curve, low, high)
+            if curve is None:
+                continue
             holding, cuts = [i, j], []
-            for k in crossing_candidates(curve, form.carriers):
+            for k in self._candidates(curve, np.array([low, high])):
                 if k in (i, j):
                     continue
                 met = crossings(curve, form.carriers[k], form.tolerance)
@@ -132,7 +138,36 @@ class _Arranger:
             ends = np.append(cuts, cuts[0] + high - low)
         else:
             ends = _distinct(curve, np.concatenate([[low], cuts, [high]]), tolerance, None)
-        return [Arc(index, float(a), float(b), False) for a, b in pairwise(ends)]
+        return [
+            Arc(index, float(a), float(b), False)
+            for a, b in pairwise(ends)
+            if self._matters(index, (a + b) / 2)
+        ]
+
+    def _candidates(self, curve: Curve, box: Array) -> Ints:
+        """Carriers that may cut a curve inside a box."""
+        centre, radius = curve.bounding_ball()
+        around = _common(np.array([centre - radius, centre + radius]), box)
+        if isinstance(curve, Line):
+            ends = curve.point(np.array(curve.domain))
+            around = _common(np.array([ends.min(axis=0), ends.max(axis=0)]), box)
+        near = overlap(self.form.carrier_boxes, np.array(around))
+        crossed = np.zeros(len(near), dtype=np.bool_)
+        crossed[crossing_candidates(curve, self.form.carriers)] = True
+        return np.flatnonzero(near & crossed)
+
+    def _matters(self, index: int, parameter: float) -> bool:
+        """Whether a point of a curve lies where two of its carriers can be faces.
+
+        The boxes are wider than needed by a slack; a point within that is not inside.
+        """
+        curve = self.curves[index]
+        point = curve.point(curve.wrapped(np.array(parameter)))
+        boxes = self.form.carrier_boxes[list(self.carriers[index])]
+        inside = overlap(boxes, np.array([point, point]))
+        margin = 0.9 * BOX_SLACK * self.form.scale
+        tight = overlap(boxes, np.array([point + margin, point - margin]))
+        return int((inside & tight).sum()) >= 2
 
     def _known(self, key: tuple[int, ...], curve: Curve) -> bool:
         """Whether a curve on the same carriers runs through the same place already."""
@@ -153,6 +188,29 @@ class _Arranger:
         gap = norm(curve.point(parameters) - points)
         # nodes are double points, located to the square root of the working precision
         return np.asarray(parameters[gap <= 1e-6 * self.form.scale])
+
+
+def _common(a: Array, b: Array) -> tuple[Array, Array]:
+    """Corners of the box that two boxes share."""
+    return np.maximum(a[0], b[0]), np.minimum(a[1], b[1])
+
+
+def _clipped(curve: Curve, low: Array, high: Array) -> Curve | None:
+    """The part of a straight line inside a box; other curves whole, if they may enter it."""
+    if not isinstance(curve, Line):
+        centre, radius = curve.bounding_ball()
+        enters = overlap(np.array([centre - radius, centre + radius]), np.array([low, high]))
+        return curve if enters else None
+    first, last = curve.domain
+    for k in range(3):
+        slope = curve.direction[k]
+        if abs(slope) < 1e-12:
+            if not low[k] <= curve.origin[k] <= high[k]:
+                return None
+            continue
+        ends = sorted(((low[k] - curve.origin[k]) / slope, (high[k] - curve.origin[k]) / slope))
+        first, last = max(first, ends[0]), min(last, ends[1])
+    return replace(curve, domain=(float(first), float(last))) if first < last else None
 
 
 def _distinct(curve: Curve, cuts: Array, tolerance: float, period: float | None) -> Array:

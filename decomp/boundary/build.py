@@ -118,7 +118,7 @@ def boundaries(model: Model) -> Boundaries:
 
 def _boundaries_of(form: HalfSpaceForm) -> Boundaries:
     for window in WINDOWS:
-        arrangement = arrange(form, window * form.scale)
+        arrangement = arrange(form, max(window * form.scale, _reach(form)))
         surroundings = stars(arrangement)
         try:
             sources = [
@@ -131,6 +131,13 @@ def _boundaries_of(form: HalfSpaceForm) -> Boundaries:
             break
     checks.refuse_overlaps(form, arrangement, surroundings)
     return Boundaries(form, tuple(s.boundary for s in sources), tuple(sources))
+
+
+def _reach(form: HalfSpaceForm) -> float:
+    """The distance from the form's centre to the far end of its regions, 0 if not known."""
+    corners = np.abs(form.region_boxes - form.centre)
+    farthest = float(norm(corners.max(axis=1)).max())
+    return 1.01 * farthest if np.isfinite(farthest) else 0.0
 
 
 def _build(arrangement: Arrangement, surroundings: list[Star], member: Member) -> _Source:

@@ -144,7 +144,8 @@ def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) ->
     From a hole's highest point the way up lies in the face and meets a loop that reaches higher,
     so the rays from all holes lead on to the face's one outer loop.
     """
-    samples = np.concatenate([walker.edges[half.edge].sampled(65) for half in loop])
+    # without the vertices, where another face of the same carrier may touch
+    samples = np.concatenate([walker.edges[half.edge].sampled(67)[1:-1] for half in loop])
     if isinstance(carrier, Torus):
         starts = samples[:: max(1, len(samples) // RAYS_PER_LOOP)]
         rays = [ray for start in starts for ray in walker.around_torus(start)]

@@ -29,10 +29,11 @@ from decomp.boundary.loops import HalfEdge
 from decomp.boundary.torus_loops import torus_angles, winding
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
+from decomp.curves.traced import TracedCurve
 from decomp.vectors import Array, dot, norm
 
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-COARSE_NODES, COARSE_WEIGHTS = np.polynomial.legendre.leggauss(11)
+RULES = (np.polynomial.legendre.leggauss(16), np.polynomial.legendre.leggauss(11))
+SHORT_RULES = (np.polynomial.legendre.leggauss(7), np.polynomial.legendre.leggauss(5))
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +60,8 @@ class FaceIntegrals:
 def tracks(edge: RawEdge) -> tuple[Track, Track]:
     """Fine and coarse quadrature along an edge; their difference tells the error."""
     panels = _panels(edge)
-    return (
-        _track(edge, panels, NODES, WEIGHTS),
-        _track(edge, panels, COARSE_NODES, COARSE_WEIGHTS),
-    )
+    fine, coarse = SHORT_RULES if isinstance(edge.curve, TracedCurve) else RULES
+    return _track(edge, panels, *fine), _track(edge, panels, *coarse)
 
 
 def face_integrals(
@@ -114,11 +113,12 @@ def face_integrals(
 
 
 def _panels(edge: RawEdge) -> Array:
-    """Parameters that divide an edge into panels on which it turns by at most about 45 degrees."""
-    count = 1 if edge.curve.kind == "line" else 8
-    fine = np.linspace(edge.start, edge.end, 8 * count + 1)
+    """Parameters that divide an edge into panels, smooth inside, which turn by about 30 degrees."""
     if edge.curve.kind == "line":
         return np.linspace(edge.start, edge.end, 3)
+    if isinstance(edge.curve, TracedCurve):
+        return _knots(edge, edge.curve)
+    fine = np.linspace(edge.start, edge.end, 65)
     tangents = edge.curve.derivative(edge.curve.wrapped((fine[1:] + fine[:-1]) / 2))
     tangents = tangents / norm(tangents)[:, None]
     turning = np.arccos(np.clip(dot(tangents[1:], tangents[:-1]), -1, 1))
@@ -127,6 +127,15 @@ def _panels(edge: RawEdge) -> Array:
     wanted = np.arange(1, int(progress[-1] / (np.pi / 6)) + 1) * (np.pi / 6)
     inner = np.interp(wanted, progress, fine)
     return np.unique(np.concatenate([[edge.start], inner, [edge.end]]))
+
+
+def _knots(edge: RawEdge, curve: TracedCurve) -> Array:
+    """The edge's ends and the knots between them, where the parametrisation has a kink."""
+    knots = curve.knots[:-1] if curve.closed else curve.knots
+    if curve.closed:
+        knots = np.concatenate([knots, knots + curve.period])
+    inner = knots[(knots > edge.start) & (knots < edge.end)]
+    return np.concatenate([[edge.start], inner, [edge.end]])
 
 
 def _track(edge: RawEdge, panels: Array, nodes: Array, weights: Array) -> Track:

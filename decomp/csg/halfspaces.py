@@ -11,6 +11,7 @@ from types import MappingProxyType
 import numpy as np
 
 from decomp.carriers import Carrier, Sphere, Torus
+from decomp.csg.extents import BOX_SLACK, extents
 from decomp.csg.model import Model
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import FALSE, TRUE, Program, ProgramBuilder, inverted
@@ -69,6 +70,8 @@ class HalfSpaceForm:
         used: for each region the indices into `placed` that it is made of, in order.
         centre: (3,), the middle of the primitives' reference points.
         scale: the length to which the tolerance is relative.
+        region_boxes: (n_regions, 2, 3), corners of a box around each region, maybe infinite.
+        carrier_boxes: (n_carriers, 2, 3), corners of a box outside which a carrier does not matter.
     """
 
     carriers: tuple[Carrier, ...]
@@ -78,6 +81,8 @@ class HalfSpaceForm:
     used: tuple[tuple[int, ...], ...]
     centre: Array
     scale: float
+    region_boxes: Array
+    carrier_boxes: Array
 
     @property
     def tolerance(self) -> float:
@@ -132,6 +137,8 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
         else:
             parts = [reference[ref >> 1] ^ (ref & 1) for ref in content]
             reference.append(builder.conjunction(parts))
+            if len(reference) - 1 in expander.bounds:
+                builder.bound(reference[-1], expander.bounds[len(reference) - 1])
     program = builder.finish([reference[r >> 1] ^ (r & 1) for r in roots])
 
     placed = tuple(
@@ -144,7 +151,11 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
     )
     used = tuple(tuple(sorted(expander.placed_below(root))) for root in roots)
     names = tuple(region.name for region in model.regions)
-    return HalfSpaceForm(tuple(carriers), program, names, placed, used, centre, size)
+    surfaces = tuple(carriers)
+    region_boxes, carrier_boxes = extents(program, surfaces, BOX_SLACK * size)
+    return HalfSpaceForm(
+        surfaces, program, names, placed, used, centre, size, region_boxes, carrier_boxes
+    )
 
 
 def _automatic_names(model: Model) -> dict[int, str]:
@@ -166,7 +177,7 @@ class _Expander:
 
     def __init__(self, names: dict[int, str]) -> None:
         self.carriers: list[Carrier] = []
-        self.bounds: list[Array] = []
+        self.bounds: dict[int, Array] = {}
         self.nodes: list[tuple[str, tuple[int, ...]]] = [("and", ())]
         self.placed: list[tuple[str, list[tuple[str, int]], Options]] = []
         self._names = names
@@ -253,7 +264,8 @@ class _Expander:
         box = primitive.bounds()
         if box is not None:
             corners = np.array([[box[(k >> j) & 1, j] for j in range(3)] for k in range(8)])
-            self.bounds.append(context.transform.points(corners))
+            corners = context.transform.points(corners)
+            self.bounds[len(self.nodes)] = np.array([corners.min(axis=0), corners.max(axis=0)])
         # A node of its own even for a single half-space, so that the primitive can be found again.
         self.nodes.append(("and", tuple(literals)))
         self._placed_at[len(self.nodes) - 1] = len(self.placed)
@@ -288,7 +300,7 @@ def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
 
 def _extent(expander: _Expander) -> tuple[Array, float]:
     """Middle and diagonal of a box around the primitives, of infinite ones around their points."""
-    points = list(expander.bounds)
+    points = list(expander.bounds.values())
     for carrier in expander.carriers:
         data = carrier.packed()
         reach = data[6] if carrier.kind == "cylinder" else 0.0

@@ -13,10 +13,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from decomp.vectors import Bools, Ints
+from decomp.vectors import Array, Bools, Ints
 
 TRUE = 0
 FALSE = 1
+UNBOUNDED: Array = np.array([[-np.inf] * 3, [np.inf] * 3])
 
 
 def inverted(reference: int) -> int:
@@ -33,12 +34,14 @@ class Program:
         start: offsets (n + 1,) into `operands`.
         operands: references to earlier nodes, an AND node's parts.
         roots: references (r,), one per region.
+        boxes: (n, 2, 3), corners of a box outside which a node is known to be false.
     """
 
     literal: Ints
     start: Ints
     operands: Ints
     roots: Ints
+    boxes: Array
 
     def evaluate(self, inside: Bools) -> Bools:
         """Evaluate every root.
@@ -79,6 +82,7 @@ class ProgramBuilder:
     def __init__(self) -> None:
         self._nodes: list[int | tuple[int, ...]] = [()]
         self._known: dict[int | tuple[int, ...], int] = {(): 0}
+        self._boxes: dict[int, Array] = {}
 
     def literal(self, carrier: int, inside: bool) -> int:
         """Reference to "the point is inside (or outside) the carrier"."""
@@ -95,6 +99,11 @@ class ProgramBuilder:
         """Reference to the OR of `references`."""
         return inverted(self.conjunction(inverted(r) for r in references))
 
+    def bound(self, reference: int, box: Array) -> None:
+        """Note that what `reference` stands for is false outside a box (2, 3)."""
+        if not reference & 1:
+            self._boxes[reference >> 1] = box
+
     def finish(self, roots: Sequence[int]) -> Program:
         """Drop what no root needs, merge nested ANDs that nothing shares, and lay out arrays."""
         uses = self._count_uses(roots)
@@ -102,24 +111,33 @@ class ProgramBuilder:
         literal, start = [-1], [0, 0]
         operands: list[int] = []
         absorbed: dict[int, list[int]] = {}
+        boxes = [UNBOUNDED]
         for node in range(1, len(self._nodes)):
             if not uses.get(node):
                 continue
             content = self._nodes[node]
             parts: list[int] = []
+            box = self._boxes.get(node, UNBOUNDED)
             if isinstance(content, tuple):
                 for ref in content:
-                    parts.extend(absorbed.pop(ref >> 1, [ref]) if not ref & 1 else [ref])
+                    if not ref & 1 and ref >> 1 in absorbed:
+                        parts.extend(absorbed.pop(ref >> 1))
+                        inner = self._boxes.get(ref >> 1, UNBOUNDED)
+                        box = np.array([np.maximum(box[0], inner[0]), np.minimum(box[1], inner[1])])
+                    else:
+                        parts.append(ref)
+                self._boxes[node] = box
                 if uses[node] == [False]:
                     absorbed[node] = parts
                     continue
             number[node] = len(literal)
+            boxes.append(box)
             literal.append(-1 if isinstance(content, tuple) else content)
             operands.extend(2 * number[ref >> 1] + (ref & 1) for ref in parts)
             start.append(len(operands))
         renumbered = [2 * number[ref >> 1] + (ref & 1) for ref in roots]
         as_ints = [np.array(a, dtype=np.int64) for a in (literal, start, operands, renumbered)]
-        return Program(*as_ints)
+        return Program(*as_ints, np.array(boxes))
 
     def _count_uses(self, roots: Sequence[int]) -> dict[int, list[bool]]:
         """For each needed node, its uses: `False` for a plain use in an AND, `True` otherwise."""
