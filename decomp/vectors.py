@@ -84,6 +84,13 @@ def dot(a: Array, b: Array) -> Array:
     return np.asarray(np.einsum("...i,...i->...", a, b))
 
 
+def cross(a: Array, b: Array) -> Array:
+    """Vector products along the last axis (faster than `np.cross` on few vectors)."""
+    ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
+    bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
+    return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
+
+
 def norm(a: Array) -> Array:
     """Euclidean lengths along the last axis."""
     return np.sqrt(dot(a, a))
@@ -93,14 +100,14 @@ def perpendicular(axis: Array) -> Array:
     """Return a unit vector at right angles to the unit vector `axis`."""
     helper = np.zeros(3)
     helper[int(np.argmin(np.abs(axis)))] = 1.0
-    side = np.cross(axis, helper)
+    side = cross(axis, helper)
     return np.asarray(side / np.linalg.norm(side))
 
 
 def frame(axis: Array) -> tuple[Array, Array]:
     """Return unit vectors x, y such that (x, y, axis) is right-handed and orthonormal."""
     x = perpendicular(axis)
-    return x, np.cross(axis, x)
+    return x, cross(axis, x)
 
 
 def place(point: Array) -> str:

@@ -16,6 +16,7 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves import crossing_candidates, crossings, intersect, meeting_pairs
 from decomp.curves.base import Curve
 from decomp.curves.line import Line
+from decomp.curves.straight import line_crossings
 from decomp.vectors import Array, Ints, norm
 
 
@@ -94,7 +95,7 @@ class _Arranger:
         self.curves: list[Curve] = []
         self.carriers: list[tuple[int, ...]] = []
         self.contacts: list[Contact] = []
-        self._cuts: list[list[Array]] = []
+        self._cuts_of: list[Array] = []
         self._shared: dict[tuple[int, ...], list[int]] = {}
 
     def add_pair(self, i: int, j: int) -> None:
@@ -108,29 +109,22 @@ class _Arranger:
             curve = _clipped(piece.curve, low, high)
             if curve is None:
                 continue
-            holding, cuts = [i, j], []
-            for k in self._candidates(curve, np.array([low, high])):
-                if k in (i, j):
-                    continue
-                met = crossings(curve, form.carriers[k], form.tolerance)
-                if met.contained:
-                    holding.append(int(k))
-                elif len(met.parameters):
-                    cuts.append(met.parameters)
-            key = tuple(sorted(holding))
+            others = self._candidates(curve, np.array([low, high]))
+            contained, cuts = self._cuts(curve, others[(others != i) & (others != j)])
+            key = tuple(sorted([i, j, *contained]))
             if len(key) > 2 and self._known(key, curve):
                 continue
             at_nodes = self._parameters_of(curve, found.nodes)
             self.curves.append(curve)
             self.carriers.append(key)
-            self._cuts.append([*cuts, at_nodes])
+            self._cuts_of.append(np.concatenate([cuts, at_nodes]))
             self._shared.setdefault(key, []).append(len(self.curves) - 1)
 
     def cut(self, index: int) -> list[Arc]:
         """The arcs of one curve."""
         curve, tolerance = self.curves[index], self.form.tolerance
         low, high = curve.domain
-        cuts = np.sort(np.concatenate([*self._cuts[index], np.empty(0)]))
+        cuts = self._cuts_of[index]
         if curve.closed:
             cuts = _distinct(curve, low + np.mod(cuts - low, high - low), tolerance, high - low)
             if not len(cuts):
@@ -144,6 +138,20 @@ class _Arranger:
             if self._matters(index, (a + b) / 2)
         ]
 
+    def _cuts(self, curve: Curve, others: Ints) -> tuple[list[int], Array]:
+        """Which of the other carriers hold the curve, and where the rest of them cut it."""
+        form = self.form
+        if isinstance(curve, Line):
+            met = line_crossings(curve, form.table, others, form.tolerance)
+            return met.contained.tolist(), met.parameters
+        contained, cuts = [], [np.empty(0)]
+        for k in others:
+            crossed = crossings(curve, form.carriers[k], form.tolerance)
+            if crossed.contained:
+                contained.append(int(k))
+            cuts.append(crossed.parameters)
+        return contained, np.concatenate(cuts)
+
     def _candidates(self, curve: Curve, box: Array) -> Ints:
         """Carriers that may cut a curve inside a box."""
         centre, radius = curve.bounding_ball()
@@ -153,7 +161,7 @@ class _Arranger:
             around = _common(np.array([ends.min(axis=0), ends.max(axis=0)]), box)
         near = overlap(self.form.carrier_boxes, np.array(around))
         crossed = np.zeros(len(near), dtype=np.bool_)
-        crossed[crossing_candidates(curve, self.form.carriers)] = True
+        crossed[crossing_candidates(curve, self.form.table)] = True
         return np.flatnonzero(near & crossed)
 
     def _matters(self, index: int, parameter: float) -> bool:

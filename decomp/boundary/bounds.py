@@ -11,7 +11,9 @@ from decomp.boundary.member import Member
 from decomp.boundary.topology import Edge
 from decomp.carriers import Carrier, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.vectors import Array, norm
+from decomp.curves.circle import Circle
+from decomp.curves.ellipse import Ellipse
+from decomp.vectors import Array, cross, norm
 
 
 def region_bounds(
@@ -55,14 +57,16 @@ def _axis_points(carrier: Carrier) -> Array:
 def _ring(axis: Array) -> Array:
     """Unit vectors across an axis."""
     x = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    x = np.cross(axis, x)
+    x = cross(axis, x)
     x = x / norm(x)
     angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)[:, None]
-    return np.asarray(np.cos(angles) * x + np.sin(angles) * np.cross(axis, x))
+    return np.asarray(np.cos(angles) * x + np.sin(angles) * cross(axis, x))
 
 
 def _extremes(edge: Edge) -> Array:
     """Points of a curved edge where a coordinate is stationary."""
+    if isinstance(edge.curve, (Circle, Ellipse)):
+        return _conic_extremes(edge, edge.curve)
     t = np.linspace(edge.start, edge.end, 4 * len(edge.samples) + 1)
     slope = edge.curve.derivative(edge.curve.wrapped(t))
     found = [np.empty(0)]
@@ -75,3 +79,12 @@ def _extremes(edge: Edge) -> Array:
             low, high = np.where(same, middle, low), np.where(same, high, middle)
         found.append(low)
     return edge.curve.point(edge.curve.wrapped(np.concatenate(found)))
+
+
+def _conic_extremes(edge: Edge, curve: Circle | Ellipse) -> Array:
+    """Coordinate k of centre + a cos t x + b sin t y is stationary where tan t = b y_k / a x_k."""
+    a, b = (curve.radius, curve.radius) if isinstance(curve, Circle) else (curve.a, curve.b)
+    first = np.arctan2(b * curve.y, a * curve.x)
+    t = np.concatenate([first, first + np.pi])
+    t = edge.start + np.mod(t - edge.start, 2 * np.pi)
+    return curve.point(t[t <= edge.end])

@@ -10,7 +10,7 @@ from decomp.boundary.wedges import Star
 from decomp.carriers import Cone, Cylinder, Plane
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import ContactError, OverlapError, UnboundedRegionError
-from decomp.vectors import Array, norm, perpendicular, place
+from decomp.vectors import Array, cross, norm, perpendicular, place
 
 
 def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
@@ -46,7 +46,7 @@ def _far_points(carrier: object, centre: Array, radius: float) -> list[Array]:
             foot = carrier.foot(centre)
             # an odd direction, so that it does not run along another carrier's symmetry
             x = perpendicular(carrier.normal_vector)
-            y = np.cross(carrier.normal_vector, x)
+            y = cross(carrier.normal_vector, x)
             return [np.asarray(foot + 4 * radius * (np.cos(0.7391) * x + np.sin(0.7391) * y))]
         case Cylinder():
             ends = [centre + s * 4 * radius * carrier.axis for s in (1.0, -1.0)]
@@ -60,7 +60,7 @@ def _far_points(carrier: object, centre: Array, radius: float) -> list[Array]:
 
 def _odd_side(axis: Array) -> Array:
     x = perpendicular(axis)
-    return np.asarray(np.cos(0.7391) * x + np.sin(0.7391) * np.cross(axis, x))
+    return np.asarray(np.cos(0.7391) * x + np.sin(0.7391) * cross(axis, x))
 
 
 def refuse_overlaps(form: HalfSpaceForm, arrangement: Arrangement, stars: list[Star]) -> None:
@@ -101,7 +101,7 @@ def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
     if gap > np.pi:
         between = -between
     if float(norm(between)) < 1e-6:
-        between = np.cross(np.cross(first.direction, second.direction), first.direction)
+        between = cross(cross(first.direction, second.direction), first.direction)
     for step in form.scale * 10.0 ** -np.arange(1, 9):
         point = star.point + step * between / (norm(between) or 1.0)
         if form.regions_at(point).sum() > 1:
@@ -131,7 +131,7 @@ def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Mem
     agree = float(normal @ b.normal(point)) > 0
     x = perpendicular(normal)
     lift = 0.0
-    for direction in (x, np.cross(normal, x)):
+    for direction in (x, cross(normal, x)):
         bend_b = float(b.normal_curvature(point, direction)) * (1 if agree else -1)
         lift += float(a.normal_curvature(point, direction)) - bend_b
     above = lift > 0  # b runs above a, seen along a's normal

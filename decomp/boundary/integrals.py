@@ -30,7 +30,7 @@ from decomp.boundary.torus_loops import torus_angles, winding
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.curves.traced import TracedCurve
-from decomp.vectors import Array, dot, norm
+from decomp.vectors import Array, cross, dot, norm
 
 RULES = (np.polynomial.legendre.leggauss(16), np.polynomial.legendre.leggauss(11))
 SHORT_RULES = (np.polynomial.legendre.leggauss(7), np.polynomial.legendre.leggauss(5))
@@ -86,7 +86,7 @@ def face_integrals(
     signed = [(sign * half.direction, track_of(half.edge)) for loop in face.loops for half in loop]
     vector_area = np.zeros(3)
     for s, track in signed:
-        vector_area += s * np.cross(track.points - origin, track.steps).sum(axis=0) / 2
+        vector_area += s * cross(track.points - origin, track.steps).sum(axis=0) / 2
 
     match carrier:
         case Plane():
@@ -149,7 +149,7 @@ def _track(edge: RawEdge, panels: Array, nodes: Array, weights: Array) -> Track:
 def _angle_steps(point: Array, axis: Array, track: Track) -> tuple[Array, Array, Array]:
     """Height, distance from the axis and d(angle) about it along a track."""
     z, rho, radial = axial_split(track.points, point, axis)
-    around = np.cross(axis, radial)
+    around = cross(axis, radial)
     return z, rho, dot(around, track.steps)
 
 

@@ -18,11 +18,13 @@ from decomp.boundary.loops import LoopSet
 from decomp.boundary.member import Member
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
+from decomp.csg.extents import overlap
 from decomp.curves import crossings
 from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.vectors import Array, Bools, norm, perpendicular
+from decomp.curves.straight import line_crossings
+from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +46,20 @@ class Walker:
         return result
 
     @cached_property
-    def crossing_carriers(self) -> list[int]:
-        """The carriers that bound the faces."""
+    def crossing_carriers(self) -> Ints:
+        """The carriers that bound the faces, ascending."""
         flanks = (f for e in self.loop_of_edge for f in self.edges[e].flanks)
-        return sorted({f.carrier for f in flanks} - {self.loops.carrier})
+        found = {f.carrier for f in flanks} - {self.loops.carrier}
+        return np.array(sorted(found), dtype=np.int64)
+
+    @cached_property
+    def _edges_on(self) -> dict[int, list[int]]:
+        """The set's edges by the carrier of their other face."""
+        result: dict[int, list[int]] = {}
+        for index in self.loop_of_edge:
+            for flank in self.edges[index].flanks:
+                result.setdefault(flank.carrier, []).append(index)
+        return result
 
     @cached_property
     def pole(self) -> Array:
@@ -103,8 +115,8 @@ class Walker:
         z, rho, radial = axial_split(point, torus.centre, torus.axis)
         middle = torus.centre + torus.major * radial
         out = (point - middle) / torus.minor
-        up = np.cross(radial, torus.axis)
-        tube = np.cross(up, out)
+        up = cross(radial, torus.axis)
+        tube = cross(up, out)
         level = torus.centre + z * torus.axis
         return [
             Circle(middle, out, tube, torus.minor),
@@ -139,31 +151,40 @@ class Walker:
         """
         low, high = ray.domain
         tolerance = self.member.form.tolerance
-        cuts: list[tuple[float, int]] = []
-        for k in self.crossing_carriers:
-            met = crossings(ray, self.member.form.carriers[k], tolerance)
-            cuts.extend((float(t), k) for t in met.parameters)
+        cuts = self._cuts(ray)
         start = ray.point(np.array(low))
         cuts = [
             (t, k) for t, k in cuts if float(norm(ray.point(np.array(t)) - start)) > 20 * tolerance
         ]
         cuts.sort()
         limits = np.array([low, *(t for t, _ in cuts), high])
-        within = self.on_face(ray.point((limits[1:] + limits[:-1]) / 2))
-        if from_edge and not within[0]:
+        middles = ray.point((limits[1:] + limits[:-1]) / 2)
+        if from_edge and not self.on_face(middles[:1])[0]:
             return None
-        for (t, k), onward in zip(cuts, within[1:], strict=True):
-            if not onward:
+        for (t, k), middle in zip(cuts, middles[1:], strict=True):
+            if not self.on_face(middle):
                 return self._loop_at(ray.point(np.array(t)), k)
         return None
 
+    def _cuts(self, ray: Curve) -> list[tuple[float, int]]:
+        """Where a ray meets the carriers that bound the faces: parameter and carrier."""
+        form = self.member.form
+        if isinstance(ray, Line):
+            ends = ray.point(np.array(ray.domain))
+            path = np.array([ends.min(axis=0), ends.max(axis=0)])
+            near = self.crossing_carriers[overlap(form.carrier_boxes[self.crossing_carriers], path)]
+            met = line_crossings(ray, form.table, near, form.tolerance)
+            return list(zip(met.parameters.tolist(), met.carriers.tolist(), strict=True))
+        return [
+            (float(t), int(k))
+            for k in self.crossing_carriers
+            for t in crossings(ray, form.carriers[k], form.tolerance).parameters
+        ]
+
     def _loop_at(self, point: Array, carrier: int) -> int | None:
-        for index, loops in self.loop_of_edge.items():
-            edge = self.edges[index]
-            if carrier in (flank.carrier for flank in edge.flanks) and edge.holds(
-                point, 100 * self.member.form.tolerance
-            ):
-                return loops[0]
+        for index in self._edges_on.get(carrier, ()):
+            if self.edges[index].holds(point, 100 * self.member.form.tolerance):
+                return self.loop_of_edge[index][0]
         return None
 
     def _edge_points(self) -> Array:

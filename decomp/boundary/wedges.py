@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.arcs import Arc, Arrangement
+from decomp.csg.extents import overlap
 from decomp.errors import ContactError
-from decomp.vectors import Array, Bools, norm, place
+from decomp.vectors import Array, Bools, cross, norm, place
 
 SAME_DIRECTION = 1e-7
 """Half-sheets whose directions differ by less than this angle leave tangentially."""
@@ -88,6 +89,8 @@ def _clear_point(arrangement: Arrangement, arc: Arc) -> Array:
         points = curve.point(curve.wrapped(parameters))
         gaps = np.abs(form.signed_distances(points))
         gaps[:, holding] = np.inf
+        # carriers do not matter outside their boxes
+        gaps[~overlap(form.carrier_boxes, np.stack([points, points], axis=1)[:, None])] = np.inf
         clear = gaps.min(axis=1)
         best = int(np.argmax(clear))
         if clear[best] > 10 * form.tolerance:
@@ -109,15 +112,15 @@ def _half_sheets(arrangement: Arrangement, arc: Arc, point: Array) -> list[HalfS
     for index in arrangement.carriers[arc.curve]:
         carrier = arrangement.form.carriers[index]
         normal = carrier.normal(point)
-        across = np.cross(normal, tangent)
+        across = cross(normal, tangent)
         across = across / norm(across)
         if not base.any():
             base = across
-            third = np.cross(tangent, base)
+            third = cross(tangent, base)
         for side in (1.0, -1.0):
             direction = side * across
             angle = float(np.arctan2(direction @ third, direction @ base)) % (2 * np.pi)
-            turning = np.cross(tangent, direction)
+            turning = cross(tangent, direction)
             rising = float(normal @ turning)
             bend = -float(carrier.normal_curvature(point, direction)) * rising
             sheet = HalfSheet(index, direction, angle, rising < 0, side > 0)

@@ -17,6 +17,8 @@ def axial_split(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Arra
     radial = away - z[..., None] * axis
     rho = norm(radial)
     clear = rho > 1e-300
+    if clear.all():
+        return z, rho, radial / rho[..., None]
     outward = np.where(
         clear[..., None], radial / np.where(clear, rho, 1.0)[..., None], perpendicular(axis)
     )

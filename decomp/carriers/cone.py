@@ -11,7 +11,7 @@ import numpy as np
 from decomp.carriers.axial import axial_split
 from decomp.carriers.base import Carrier, pack
 from decomp.similarity import Similarity
-from decomp.vectors import Array, dot, norm
+from decomp.vectors import Array, cross, dot, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +54,7 @@ class Cone(Carrier):
 
     def normal_curvature(self, q: Array, direction: Array) -> Array:
         _, rho, outward = axial_split(q, self.apex, self.axis)
-        around = np.cross(self.axis, outward)
+        around = cross(self.axis, outward)
         return np.asarray(dot(around, direction) ** 2 * cos(self.angle) / rho)
 
     def transformed(self, by: Similarity) -> Cone:

@@ -10,7 +10,7 @@ import numpy as np
 from decomp.carriers.axial import axial_split, axis_deviation, nearest_to_origin
 from decomp.carriers.base import Carrier, pack
 from decomp.similarity import Similarity
-from decomp.vectors import Array, dot
+from decomp.vectors import Array, cross, dot
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class Cylinder(Carrier):
         return np.asarray((square - self.radius**2) / (2 * self.radius))
 
     def normal_curvature(self, q: Array, direction: Array) -> Array:
-        around = np.cross(self.axis, self.normal(q))
+        around = cross(self.axis, self.normal(q))
         return np.asarray(dot(around, direction) ** 2 / self.radius)
 
     def transformed(self, by: Similarity) -> Cylinder:

@@ -10,7 +10,7 @@ import numpy as np
 from decomp.carriers.axial import axial_split
 from decomp.carriers.base import Carrier, pack
 from decomp.similarity import Similarity
-from decomp.vectors import Array, dot, norm
+from decomp.vectors import Array, cross, dot, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +51,8 @@ class Torus(Carrier):
     def normal_curvature(self, q: Array, direction: Array) -> Array:
         _, rho, radial = axial_split(q, self.centre, self.axis)
         _, outward = self._spine(q)
-        around = np.cross(self.axis, radial)
-        across = np.cross(around, outward)
+        around = cross(self.axis, radial)
+        across = cross(around, outward)
         parallel = dot(outward, radial) / rho
         return np.asarray(
             dot(around, direction) ** 2 * parallel + dot(across, direction) ** 2 / self.minor

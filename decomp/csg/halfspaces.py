@@ -6,6 +6,7 @@ from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -28,6 +29,7 @@ from decomp.csg.solid import (
     no_options,
     walk,
 )
+from decomp.curves.table import CarrierTable
 from decomp.similarity import IDENTITY, Similarity
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools
@@ -89,6 +91,11 @@ class HalfSpaceForm:
         """Lengths below this count as zero."""
         return TOLERANCE * self.scale
 
+    @cached_property
+    def table(self) -> CarrierTable:
+        """The carriers packed for work on all of them at once."""
+        return CarrierTable(self.carriers)
+
     def carrier_name(self, carrier: int) -> str:
         """How messages call a carrier: by the first primitive that it is a side of."""
         for placed in self.placed:
@@ -99,7 +106,9 @@ class HalfSpaceForm:
 
     def signed_distances(self, points: Array) -> Array:
         """Signed distances (..., n_carriers) of points (..., 3) to every carrier."""
-        return np.stack([c.signed_distance(points) for c in self.carriers], axis=-1)
+        flat = points.reshape(-1, 3)
+        distances = self.table.distances(flat)
+        return np.ascontiguousarray(distances.T).reshape(*points.shape[:-1], len(self.carriers))
 
     def regions_at(self, points: Array) -> Bools:
         """Which regions (..., n_regions) hold the points (..., 3); brute force over carriers."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -53,17 +54,37 @@ class Program:
             (..., n_roots), whether it is in each region.
         """
         shape = inside.shape[:-1]
-        values = np.empty((len(self.literal), *shape), dtype=np.bool_)
-        for node, carrier in enumerate(self.literal):
-            if carrier >= 0:
-                values[node] = inside[..., carrier]
-                continue
-            values[node] = True
-            for ref in self.operands[self.start[node] : self.start[node + 1]]:
-                values[node] &= values[ref >> 1] ^ bool(ref & 1)
-        result = np.empty((*shape, len(self.roots)), dtype=np.bool_)
-        for k, ref in enumerate(self.roots):
-            result[..., k] = values[ref >> 1] ^ bool(ref & 1)
+        columns = inside.reshape(-1, inside.shape[-1]).T
+        values = np.empty((len(self.literal), columns.shape[1]), dtype=np.bool_)
+        values[0] = True
+        literals = self.literal >= 0
+        values[literals] = columns[self.literal[literals]]
+        for nodes, operands, starts in self._levels:
+            parts = values[operands >> 1] ^ (operands & 1).astype(np.bool_)[:, None]
+            values[nodes] = np.logical_and.reduceat(parts, starts, axis=0)
+        chosen = values[self.roots >> 1] ^ (self.roots & 1).astype(np.bool_)[:, None]
+        return np.ascontiguousarray(chosen.T).reshape(*shape, len(self.roots))
+
+    @cached_property
+    def _levels(self) -> list[tuple[Ints, Ints, Ints]]:
+        """AND nodes in groups that depend on earlier groups only.
+
+        Each group: its nodes, their operands one after the other, where each node's begin.
+        """
+        level = np.zeros(len(self.literal), dtype=np.int64)
+        groups: dict[int, list[int]] = {}
+        for node in range(1, len(self.literal)):
+            parts = self.operands[self.start[node] : self.start[node + 1]]
+            if len(parts):
+                level[node] = level[parts >> 1].max() + 1
+                groups.setdefault(int(level[node]), []).append(node)
+        result = []
+        for key in sorted(groups):
+            nodes = np.array(groups[key], dtype=np.int64)
+            pieces = [self.operands[self.start[n] : self.start[n + 1]] for n in nodes]
+            ends = np.cumsum([len(piece) for piece in pieces])
+            starts = np.concatenate([[0], ends[:-1]]).astype(np.int64)
+            result.append((nodes, np.concatenate(pieces), starts))
         return result
 
     def carriers_of(self, root: int) -> list[int]:

@@ -1,0 +1,129 @@
+"""Where a straight line meets many carriers at once, in closed form.
+
+On a plane, sphere, cylinder or cone the line o + t d satisfies q t^2 + 2 h t + c = 0. A double
+root is a touch; near one the line's least distance decides, as sqrt(h^2 - q c) is ill-conditioned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.curves.crossings import crossings
+from decomp.curves.line import Line
+from decomp.curves.table import CarrierTable
+from decomp.vectors import Array, Bools, Ints
+
+
+@dataclass(frozen=True, eq=False)
+class LineCrossings:
+    """Meeting points of a line with carriers.
+
+    Args:
+        parameters: all t (k,), in no particular order.
+        carriers: the carrier (k,) met at each.
+        contained: indices of the carriers that hold the whole line.
+    """
+
+    parameters: Array
+    carriers: Ints
+    contained: Ints
+
+
+def line_crossings(line: Line, table: CarrierTable, among: Ints, tolerance: float) -> LineCrossings:
+    """Find all points in the line's domain where it meets or touches the carriers `among`."""
+    low, high = line.domain
+    probes = line.point(np.array([low, 0.41 * low + 0.59 * high, high]))
+    inside = (np.abs(table.distances(probes, among)) <= tolerance).all(axis=1)
+    contained, rest = among[inside], among[~inside]
+    tori = rest[table.kinds[rest] == Torus.code]
+    rest = rest[table.kinds[rest] != Torus.code]
+    t, which = _quadratic_roots(line, table, rest, tolerance)
+    for k in tori:
+        met = crossings(line, table.carriers[k], tolerance)
+        t = np.concatenate([t, met.parameters])
+        which = np.concatenate([which, np.full(len(met.parameters), k)])
+    return LineCrossings(t, which, contained)
+
+
+def _quadratic_roots(
+    line: Line, table: CarrierTable, among: Ints, tolerance: float
+) -> tuple[Array, Ints]:
+    quadratic, half, constant = _coefficients(line, table, among)
+    low, high = line.domain
+    with np.errstate(divide="ignore", invalid="ignore"):
+        middle = -half / quadratic
+        # distance of the roots from the middle; negative squares that are touches count as zero
+        square = middle**2 - constant / quadratic
+        spread = np.sqrt(np.maximum(square, 0.0))
+        single = -constant / (2 * half)
+        below, above = middle - spread, middle + spread
+    straight = np.abs(quadratic) <= 1e-14
+    touch = ~straight & _touches(line, table, among, middle, tolerance)
+    crossing = ~straight & ~touch & (square > 0)
+    rows = np.arange(len(among))
+    t = np.concatenate([single[straight], middle[touch], below[crossing], above[crossing]])
+    which = np.concatenate([rows[straight], rows[touch], rows[crossing], rows[crossing]])
+    within = np.isfinite(t) & (t >= low - tolerance) & (t <= high + tolerance)
+    t, which = np.clip(t[within], low, high), which[within]
+    t = _polished(line, table, among[which], t)
+    on = np.abs(_own_distance(table, among[which], line.point(t))) <= tolerance
+    return t[on], among[which[on]]
+
+
+def _coefficients(line: Line, table: CarrierTable, among: Ints) -> tuple[Array, Array, Array]:
+    rows, kinds = table.rows[among], table.kinds[among]
+    d = line.direction
+    away = line.origin - rows[:, :3]
+    axis, first, second = rows[:, 3:6], rows[:, 6], rows[:, 7]
+    along, lift = axis @ d, np.einsum("ij,ij->i", away, axis)
+    straight, square = away @ d, np.einsum("ij,ij->i", away, away)
+    quadratic, half, constant = np.zeros(len(among)), along / 2, lift.copy()
+    ball, tube, cone = (kinds == code for code in (Sphere.code, Cylinder.code, Cone.code))
+    quadratic[ball], half[ball] = 1.0, straight[ball]
+    constant[ball] = (square - first**2)[ball]
+    quadratic[tube] = (1 - along**2)[tube]
+    half[tube] = (straight - lift * along)[tube]
+    constant[tube] = (square - lift**2 - first**2)[tube]
+    cosine2 = second**2
+    quadratic[cone] = (cosine2 - along**2)[cone]
+    half[cone] = (straight * cosine2 - lift * along)[cone]
+    constant[cone] = (square * cosine2 - lift**2)[cone]
+    assert not np.any(kinds == Torus.code)
+    half[kinds == Plane.code] = along[kinds == Plane.code] / 2
+    return quadratic, half, constant
+
+
+def _touches(
+    line: Line, table: CarrierTable, among: Ints, middle: Array, tolerance: float
+) -> Bools:
+    """Whether the point halfway between the roots is on the carrier itself."""
+    result = np.zeros(len(among), dtype=np.bool_)
+    rows = np.flatnonzero(np.isfinite(middle))
+    points = line.point(middle[rows])
+    result[rows] = np.abs(_own_distance(table, among[rows], points)) <= tolerance
+    return result
+
+
+def _polished(line: Line, table: CarrierTable, which: Ints, t: Array) -> Array:
+    """One Newton step on the signed distance; not at touches, where its slope is zero."""
+    points = line.point(t)
+    distance = _own_distance(table, which, points)
+    step = 1e-6 * (line.domain[1] - line.domain[0])
+    ahead = _own_distance(table, which, line.point(t + step))
+    behind = _own_distance(table, which, line.point(t - step))
+    slope = (ahead - behind) / (2 * step)
+    steep = np.abs(slope) > 1e-3
+    corrected = np.where(steep, t - distance / np.where(steep, slope, 1.0), t)
+    return np.clip(corrected, *line.domain)
+
+
+def _own_distance(table: CarrierTable, which: Ints, points: Array) -> Array:
+    """Signed distance (k,) of each point to its own carrier."""
+    result = np.empty(len(which))
+    for carrier in np.unique(which):
+        rows = which == carrier
+        result[rows] = table.carriers[carrier].signed_distance(points[rows])
+    return result
