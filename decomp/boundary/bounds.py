@@ -13,6 +13,7 @@ from decomp.carriers import Carrier, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves.circle import Circle
 from decomp.curves.ellipse import Ellipse
+from decomp.curves.line import Line
 from decomp.vectors import Array, cross, norm
 
 
@@ -26,14 +27,35 @@ def region_bounds(
     lines, which end at an edge).
     """
     points = [edge.samples for edge in edges]
-    points += [_extremes(edge) for edge in edges if edge.curve.kind != "line"]
+    points += [
+        _conic_extremes(edge, edge.curve)
+        for edge in edges
+        if isinstance(edge.curve, (Circle, Ellipse))
+    ]
     for face in faces:
         candidates = _axis_points(form.carriers[face.carrier])
         if len(candidates):
             on = member.is_face(face.carrier, face.outward, candidates)
             points.append(candidates[on])
     cloud = np.concatenate(points)
-    return np.array([cloud.min(axis=0), cloud.max(axis=0)])
+    box = np.array([cloud.min(axis=0), cloud.max(axis=0)])
+    for edge in edges:
+        if not isinstance(edge.curve, (Line, Circle, Ellipse)) and _may_stick_out(edge, box):
+            found = _extremes(edge)
+            box = np.array(
+                [
+                    np.minimum(box[0], found.min(axis=0, initial=np.inf)),
+                    np.maximum(box[1], found.max(axis=0, initial=-np.inf)),
+                ]
+            )
+    return box
+
+
+def _may_stick_out(edge: Edge, box: Array) -> bool:
+    """Whether the curve between samples may leave a box: it bulges by less than the chord."""
+    chord = norm(np.diff(edge.samples, axis=0)).max()
+    low, high = edge.samples.min(axis=0), edge.samples.max(axis=0)
+    return bool(((low - chord < box[0]) | (high + chord > box[1])).any())
 
 
 def _axis_points(carrier: Carrier) -> Array:
@@ -65,9 +87,7 @@ def _ring(axis: Array) -> Array:
 
 def _extremes(edge: Edge) -> Array:
     """Points of a curved edge where a coordinate is stationary."""
-    if isinstance(edge.curve, (Circle, Ellipse)):
-        return _conic_extremes(edge, edge.curve)
-    t = np.linspace(edge.start, edge.end, 4 * len(edge.samples) + 1)
+    t = np.linspace(edge.start, edge.end, len(edge.samples) + 1)
     slope = edge.curve.derivative(edge.curve.wrapped(t))
     found = [np.empty(0)]
     for k in range(3):

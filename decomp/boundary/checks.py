@@ -7,10 +7,11 @@ import numpy as np
 from decomp.boundary.arcs import Arrangement, Contact
 from decomp.boundary.member import Member
 from decomp.boundary.wedges import Star
-from decomp.carriers import Cone, Cylinder, Plane
+from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import ContactError, OverlapError, UnboundedRegionError
-from decomp.vectors import Array, cross, norm, perpendicular, place
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array, Bools, cross, norm, perpendicular, place
 
 
 def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
@@ -126,7 +127,24 @@ def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Mem
     """
     form, point = arrangement.form, contact.point
     i, j = contact.carriers
-    a, b = form.carriers[i], form.carriers[j]
+    inside = np.repeat((form.signed_distances(point) < 0)[None, :], 3, axis=0)
+    inside[:, (i, j)] = _layers(form.carriers[i], form.carriers[j], point, form.scale)
+    below, between, beyond = member.holds(inside)
+    if below == beyond != between:
+        raise ContactError(
+            f"region {member.name!r} touches itself at the point {place(point)}, where "
+            f"{form.carrier_name(i)} and {form.carrier_name(j)} are tangent: leave a gap or let "
+            "the parts overlap"
+        )
+
+
+def _layers(a: Carrier, b: Carrier, point: Array, scale: float) -> Bools:
+    """Insides (3, 2) of two touching carriers in the layers below, between and above them."""
+    for first, second, order in ((a, b, (0, 1)), (b, a, (1, 0))):
+        if isinstance(first, Cone) and float(norm(point - first.apex)) <= TOLERANCE * scale:
+            within = bool(second.signed_distance(point + 1e-3 * scale * first.axis) < 0)
+            rows = np.array([[True, within], [False, within], [False, not within]])
+            return rows[:, order]
     normal = a.normal(point)
     agree = float(normal @ b.normal(point)) > 0
     x = perpendicular(normal)
@@ -135,13 +153,4 @@ def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Mem
         bend_b = float(b.normal_curvature(point, direction)) * (1 if agree else -1)
         lift += float(a.normal_curvature(point, direction)) - bend_b
     above = lift > 0  # b runs above a, seen along a's normal
-    inside = np.repeat((form.signed_distances(point) < 0)[None, :], 3, axis=0)
-    inside[:, i] = [True, not above, False]
-    inside[:, j] = [agree, agree if above else not agree, not agree]
-    below, between, beyond = member.holds(inside)
-    if below == beyond != between:
-        raise ContactError(
-            f"region {member.name!r} touches itself at the point {place(point)}, where "
-            f"{form.carrier_name(i)} and {form.carrier_name(j)} are tangent: leave a gap or let "
-            "the parts overlap"
-        )
+    return np.array([[True, agree], [not above, agree == above], [False, not agree]])

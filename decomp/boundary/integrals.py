@@ -35,6 +35,9 @@ from decomp.vectors import Array, cross, dot, norm
 RULES = (np.polynomial.legendre.leggauss(16), np.polynomial.legendre.leggauss(11))
 SHORT_RULES = (np.polynomial.legendre.leggauss(7), np.polynomial.legendre.leggauss(5))
 
+MOST_HALVINGS = 8
+PANEL_ERROR = 1e-13
+
 
 @dataclass(frozen=True, eq=False)
 class Track:
@@ -58,10 +61,22 @@ class FaceIntegrals:
 
 
 def tracks(edge: RawEdge) -> tuple[Track, Track]:
-    """Fine and coarse quadrature along an edge; their difference tells the error."""
+    """Fine and coarse quadrature along an edge; their difference tells the error.
+
+    Panels on which the two rules disagree about the length are halved.
+    """
     panels = _panels(edge)
-    fine, coarse = SHORT_RULES if isinstance(edge.curve, TracedCurve) else RULES
-    return _track(edge, panels, *fine), _track(edge, panels, *coarse)
+    fine_rule, coarse_rule = SHORT_RULES if isinstance(edge.curve, TracedCurve) else RULES
+    for _ in range(MOST_HALVINGS):
+        fine, coarse = _track(edge, panels, *fine_rule), _track(edge, panels, *coarse_rule)
+        lengths = [
+            norm(track.steps).reshape(len(panels) - 1, -1).sum(axis=1) for track in (fine, coarse)
+        ]
+        bad = np.flatnonzero(np.abs(lengths[0] - lengths[1]) > PANEL_ERROR * lengths[0].sum())
+        if not len(bad):
+            break
+        panels = np.insert(panels, bad + 1, (panels[bad] + panels[bad + 1]) / 2)
+    return fine, coarse
 
 
 def face_integrals(

@@ -23,6 +23,9 @@ from decomp.vectors import Array, Bools, cross, norm, place
 SAME_DIRECTION = 1e-7
 """Half-sheets whose directions differ by less than this angle leave tangentially."""
 
+CLEAR = 1e-12
+"""A signed distance above this part of the scale has a certain sign: points are exact to 1e-15."""
+
 
 @dataclass(frozen=True, eq=False)
 class HalfSheet:
@@ -93,13 +96,13 @@ def _clear_point(arrangement: Arrangement, arc: Arc) -> Array:
         gaps[~overlap(form.carrier_boxes, np.stack([points, points], axis=1)[:, None])] = np.inf
         clear = gaps.min(axis=1)
         best = int(np.argmax(clear))
-        if clear[best] > 10 * form.tolerance:
+        if clear[best] > CLEAR * form.scale:
             return np.asarray(points[best])
     blocker = int(np.argmin(gaps[best]))
     raise ContactError(
         f"{form.carrier_name(blocker)} runs along the curve in which "
         f"{' and '.join(form.carrier_name(k) for k in holding)} meet, closer than the "
-        f"tolerance {form.tolerance:.3g} but not equal to it, near {place(points[best])}"
+        f"resolution {CLEAR * form.scale:.3g} but not along all of it, near {place(points[best])}"
     )
 
 

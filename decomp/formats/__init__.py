@@ -1,0 +1,144 @@
+"""Models from and to files: Netgen `.geo`, OpenSCAD `.csg`, native JSON.
+
+The readers are loaded when they are first used, as they bring in a parser library.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, get_args
+
+from decomp.errors import FileError, InputError, ParseError
+
+if TYPE_CHECKING:
+    from decomp.csg.model import Model
+
+Format = Literal["geo", "csg", "json"]
+"""Netgen, OpenSCAD, native."""
+
+FORMATS: tuple[Format, ...] = get_args(Format)
+MAX_BYTES = 200_000_000
+EXPECTED = "expected Netgen .geo (algebraic3d), OpenSCAD .csg or decomp .json"
+
+
+def load(path: str | Path) -> Model:
+    """Read a model file; the extension tells its format, or else its first words.
+
+    Raises:
+        FileError: the file cannot be read.
+        ParseError: its text is wrong.
+        UnsupportedError: it uses what lies outside the five primitives and similarities.
+    """
+    file = Path(path)
+    data = _bytes(file)
+    suffix = file.suffix.lower().removeprefix(".")
+    form = next((known for known in FORMATS if known == suffix), None)
+    text = _text(data, file, form)
+    if not text.strip():
+        raise ParseError(f"the file is empty; {EXPECTED}", file)
+    return loads(text, form or _sniffed(text, file), file.stem, file)
+
+
+def loads(text: str, form: Format, name: str = "model", path: str | Path | None = None) -> Model:
+    """Read a model from text; a native model's own name goes before `name`.
+
+    Args:
+        path: where the text came from, for error messages.
+    """
+    from decomp.formats.source import Source
+
+    source = Source(text.replace("\r\n", "\n").replace("\r", "\n"), path)
+    match form:
+        case "geo":
+            from decomp.formats import netgen
+
+            return netgen.read(source, name)
+        case "csg":
+            from decomp.formats import openscad
+
+            return openscad.read(source, name)
+        case "json":
+            from decomp.formats import native
+
+            return native.read(source, name)
+        case _:
+            raise InputError(f"unknown format {form!r}; known are {', '.join(FORMATS)}")
+
+
+def save(model: Model, path: str | Path) -> None:
+    """Write a model as native JSON; the file is replaced at once or not at all.
+
+    Raises:
+        FileError: the file cannot be written.
+    """
+    from decomp.formats import native
+
+    text = native.dumps(model)
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        raise FileError("this is a directory; give the name of a file to write", path)
+    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    try:
+        try:
+            with temporary.open("w", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+            temporary.replace(target)
+        finally:
+            temporary.unlink(missing_ok=True)
+    except OSError as error:
+        raise FileError(f"cannot be written: {_reason(error)}", path) from None
+    except UnicodeEncodeError as error:
+        raise InputError(f"a name or option has no UTF-8 form: {error.object!r}") from None
+
+
+def _bytes(file: Path) -> bytes:
+    try:
+        if file.is_dir():
+            raise FileError("this is a directory; give the name of a model file", file)
+        if not file.exists():
+            raise FileError("no such file", file)
+        if not file.is_file():
+            raise FileError("this is no regular file; give the name of a model file", file)
+        size = file.stat().st_size
+        if size > MAX_BYTES:
+            raise FileError(f"the file has {size:,} bytes; at most {MAX_BYTES:,} are read", file)
+        return file.read_bytes()
+    except (OSError, ValueError) as error:
+        raise FileError(f"cannot be read: {_reason(error)}", file) from None
+
+
+def _text(data: bytes, file: Path, form: Format | None) -> str:
+    """The file's text: UTF-8, and Latin-1 too for Netgen's files, which may have it in comments."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise ParseError("the file is in UTF-16; save it as UTF-8", file, 1, 1)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        if form == "geo" or (form is None and re.search(rb"\balgebraic3d\b", data)):
+            return data.decode("latin-1")
+        before = data[: error.start]
+        line = before.count(b"\n") + 1
+        column = len(before[before.rfind(b"\n") + 1 :].decode("utf-8", "replace")) + 1
+        raise ParseError(
+            f"byte 0x{data[error.start]:02x} is not UTF-8; save the file as UTF-8",
+            file,
+            line,
+            column,
+        ) from None
+
+
+def _sniffed(text: str, file: Path) -> Format:
+    """The format that the text's first words tell, comments passed over."""
+    if re.match(r"(?:\s|#[^\n]*+)*+algebraic3d\b", text):
+        return "geo"
+    if re.match(r"\s*+\{", text):
+        return "json"
+    if re.match(r"(?s:\s|//[^\n]*+|/\*.*?\*/)*+[%#*!\s]*+\w++\s*+\(", text):
+        return "csg"
+    raise ParseError(f"the file's format is unknown; {EXPECTED}", file, 1, 1)
+
+
+def _reason(error: OSError | ValueError) -> str:
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)
