@@ -392,7 +392,13 @@ SOLIDS: dict[str, Case] = {
         64 + 8,
     ),
     "lens": Case(
-        lens, 2 * cap(1, 0.5), 1, {"sphere": 2}, {CIRCLES: 1}, area=2 * pi, length={CONVEX: pi * sqrt(3)}
+        lens,
+        2 * cap(1, 0.5),
+        1,
+        {"sphere": 2},
+        {CIRCLES: 1},
+        area=2 * pi,
+        length={CONVEX: pi * sqrt(3)},
     ),
     "oblique cone": Case(
         oblique_cone,

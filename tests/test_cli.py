@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -30,8 +31,11 @@ BAD_MODELS = {
     "negative radius": ("solid s = sphere (0,0,0; -1);\ntlo s;", "radius must be positive", 2),
     "zero axis": ("solid s = plane (0,0,0; 0,0,0);\ntlo s;", "zero vector", 2),
     "undefined solid": ("solid s = t;\ntlo s;", "'t'", 2),
-    "outside the primitives": ("solid s = ellipsoid (0,0,0; 1,0,0; 0,2,0; 0,0,3);\ntlo s;",
-                               "ellipsoid", 2),
+    "outside the primitives": (
+        "solid s = ellipsoid (0,0,0; 1,0,0; 0,2,0; 0,0,3);\ntlo s;",
+        "ellipsoid",
+        2,
+    ),
 }
 
 
@@ -93,8 +97,18 @@ def test_convert_round_trips(block: Path, capsys: pytest.CaptureFixture[str]) ->
     direct = json.loads(capsys.readouterr().out)
     main(["info", str(output), "--json"])
     converted = json.loads(capsys.readouterr().out)
-    assert converted["regions"] == direct["regions"]
-    assert converted["ignored"] == direct["ignored"]
+    assert _rounded(converted) == _rounded({**direct, "model": "block"})
+
+
+def _rounded(value: Any) -> Any:
+    """JSON values with numbers to 12 digits: sums depend on how memory is aligned."""
+    if isinstance(value, float):
+        return float(f"{value:.12g}")
+    if isinstance(value, list):
+        return [_rounded(item) for item in value]
+    if isinstance(value, dict):
+        return {k: _rounded(v) for k, v in value.items() if not k.endswith("_error")}
+    return value
 
 
 def test_convert_leaves_no_half_written_file(

@@ -16,6 +16,9 @@ from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
 from decomp.vectors import Array, cross, norm
 
+TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
+"""A rotation by odd angles, so that steps do not run along the model's own planes."""
+
 
 def region_bounds(
     form: HalfSpaceForm, member: Member, faces: Sequence[RawFace], edges: Sequence[Edge]
@@ -35,8 +38,7 @@ def region_bounds(
     for face in faces:
         candidates = _axis_points(form.carriers[face.carrier])
         if len(candidates):
-            on = member.is_face(face.carrier, face.outward, candidates)
-            points.append(candidates[on])
+            points.append(candidates[_near_face(form, member, face, candidates)])
     cloud = np.concatenate(points)
     box = np.array([cloud.min(axis=0), cloud.max(axis=0)])
     for edge in edges:
@@ -49,6 +51,20 @@ def region_bounds(
                 ]
             )
     return box
+
+
+def _near_face(form: HalfSpaceForm, member: Member, face: RawFace, points: Array) -> Bools:
+    """Whether points on a carrier are on a face or so close that the box cannot tell.
+
+    At an extreme point the coordinate is stationary, so a step of 1e-7 changes it by 1e-14. The
+    point itself will not do where another carrier touches there, as a cube's sides touch a ball.
+    """
+    carrier = form.carriers[face.carrier]
+    on = np.zeros(len(points), dtype=np.bool_)
+    for step in np.concatenate([np.eye(3), -np.eye(3)]) @ TILT:
+        moved = carrier.project(points + 1e-7 * form.scale * step)
+        on |= member.is_face(face.carrier, face.outward, moved)
+    return on
 
 
 def _may_stick_out(edge: Edge, box: Array) -> bool:

@@ -1,0 +1,230 @@
+"""Degenerate positions: coincident faces, tangency, contact along lines and at points.
+
+They are normal input: either the exact result, or an error that says what touches what.
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+import pytest
+
+from decomp import (
+    Block,
+    Cone,
+    Cylinder,
+    Geometry,
+    HalfSpace,
+    InfiniteCylinder,
+    RegionBoundary,
+    Solid,
+    Sphere,
+    Torus,
+)
+from decomp.errors import ContactError, EmptyRegionError, OverlapError, UnboundedRegionError
+
+CUBE = Block((-1, -1, -1), (2, 2, 2), name="cube")
+
+
+def only(solid: Solid) -> RegionBoundary:
+    return Geometry(solid).regions[0]
+
+
+RESOLVED = {
+    "ball inscribed in a cube": (CUBE & Sphere((0, 0, 0), 1), 4 / 3 * pi, 1, 0),
+    "cylinder inscribed in a cube": (
+        CUBE & InfiniteCylinder((0, 0, 0), (0, 0, 1), 1),
+        2 * pi,
+        3,
+        2,
+    ),
+    "torus inscribed in a slab": (
+        Torus((0, 0, 0), (0, 0, 1), 2, 1) & Block((-4, -4, -1), (8, 8, 2)),
+        4 * pi**2,
+        1,
+        0,
+    ),
+    "ball inscribed in a cylinder": (
+        Cylinder((0, 0, -2), (0, 0, 2), 1) & Sphere((0, 0, 0), 1),
+        4 / 3 * pi,
+        1,
+        0,
+    ),
+    "blocks side by side": (CUBE | Block((1, -1, -1), (3, 2, 2)), 20, 6, 12),
+    "blocks overlapping with flush sides": (CUBE | Block((0, -1, -1), (3, 2, 2)), 16, 6, 12),
+    "smaller block on top": (CUBE | Block((-0.5, -0.5, 1), (1, 1, 1)), 9, 11, 24),
+    "tool flush with a face": (CUBE - Block((0, -2, -2), (1, 4, 4)), 4, 6, 12),
+    "hole flush with both ends": (CUBE - Cylinder((0, 0, -1), (0, 0, 1), 0.5), 8 - pi / 2, 7, 14),
+    "plug that fills its hole": (
+        (CUBE - Cylinder((0, 0, -2), (0, 0, 2), 0.5)) | Cylinder((0, 0, -1), (0, 0, 1), 0.5),
+        8,
+        6,
+        12,
+    ),
+    "same solid twice": (CUBE | CUBE.translate((0, 0, 0)), 8, 6, 12),
+    "cut through a corner point": (CUBE & HalfSpace((1, 1, 1), (1, 1, 1)), 8, 6, 12),
+    "cut through an edge": (CUBE & HalfSpace((1, 1, 0), (1, 1, 0)), 8, 6, 12),
+    "cut through a diagonal": (CUBE & HalfSpace((0, 0, 0), (1, -1, 0)), 4, 5, 9),
+    "cut through three corners": (
+        CUBE & HalfSpace((1, 1, -1), (1, 1, 1)),
+        8 - 8 / 6,
+        7,
+        12,
+    ),
+    "cone cut at its apex": (
+        Cone((0, 0, 0), 1, (0, 0, 2)) & HalfSpace((0, 0, 2), (0, 0, 1)),
+        2 * pi / 3,
+        2,
+        1,
+    ),
+    "half cone": (Cone((0, 0, 0), 1, (0, 0, 2)) & HalfSpace((0, 0, 0), (1, 0, 0)), pi / 3, 3, 4),
+    "cone touched by a plane along a ruling": (
+        Cone((0, 0, 0), 1, (0, 0, 1)) & HalfSpace((0, 0, 1), (1, 0, 1)),
+        pi / 3,
+        2,
+        1,
+    ),
+    "quarter of a cylinder": (
+        Cylinder((0, 0, 0), (0, 0, 1), 1)
+        & HalfSpace((0, 0, 0), (1, 0, 0))
+        & HalfSpace((0, 0, 0), (0, 1, 0)),
+        pi / 4,
+        5,
+        9,
+    ),
+    "half cylinder on its tangent plane": (
+        Block((-2, 0, -1), (4, 1, 2)) | InfiniteCylinder((0, 0, 0), (0, 0, 1), 1) & CUBE,
+        8 + pi,
+        8,
+        18,
+    ),
+    "ball cap flush with a cylinder": (
+        Cylinder((0, 0, 0), (0, 0, 2), 1) | Sphere((0, 0, 2), 1),
+        2 * pi + 2 / 3 * pi,
+        3,
+        2,
+    ),
+    "equal cylinders crossing": (
+        InfiniteCylinder((0, 0, 0), (1, 0, 0), 1) & InfiniteCylinder((0, 0, 0), (0, 1, 0), 1),
+        16 / 3,
+        4,
+        4,
+    ),
+    "three equal cylinders crossing": (
+        InfiniteCylinder((0, 0, 0), (1, 0, 0), 1)
+        & InfiniteCylinder((0, 0, 0), (0, 1, 0), 1)
+        & InfiniteCylinder((0, 0, 0), (0, 0, 1), 1),
+        8 * (2 - 2**0.5),
+        12,
+        24,
+    ),
+}
+
+REFUSED = {
+    "log on a table": CUBE | Cylinder((-2, 0, 2), (2, 0, 2), 1, name="log"),
+    "bore tangent to a face": CUBE - InfiniteCylinder((0, 0, 0.5), (1, 0, 0), 0.5, name="bore"),
+    "ball on a table": CUBE | Sphere((0, 0, 2), 1, name="ball"),
+    "bubble that touches a face": CUBE - Sphere((0, 0, 0.5), 0.5, name="bubble"),
+    "two balls": Sphere((0, 0, 0), 1, name="one") | Sphere((2, 0, 0), 1, name="two"),
+    "cubes that share an edge": CUBE | Block((1, 1, -1), (2, 2, 2), name="other"),
+    "cubes that share a corner": CUBE | Block((1, 1, 1), (2, 2, 2), name="other"),
+    "cone on its tip": CUBE | Cone((0, 0, 1), 0, (0, 0, 2), 0.5, name="top"),
+    "hourglass": Cone((0, 0, -1), 1, (0, 0, 0)) | Cone((0, 0, 0), 0, (0, 0, 1), 1),
+    "parallel cylinders that touch": Cylinder((0, 0, 0), (0, 0, 1), 1, name="one")
+    | Cylinder((2, 0, 0), (2, 0, 1), 1, name="two"),
+    "ring on a table": Block((-4, -4, -2), (8, 8, 1)) | Torus((0, 0, 0), (0, 0, 1), 2, 1),
+}
+
+
+@pytest.mark.parametrize("name", RESOLVED)
+def test_degenerate_positions_are_resolved(name: str) -> None:
+    solid, volume, faces, edges = RESOLVED[name]
+    region = only(solid)
+    assert region.volume == pytest.approx(volume, rel=1e-11)
+    assert len(region.faces) == faces
+    assert len(region.edges) == edges
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_solids_that_touch_themselves_are_refused(name: str) -> None:
+    with pytest.raises(ContactError, match="touches itself|touch"):
+        only(REFUSED[name])
+
+
+def test_a_contact_error_names_the_faces_and_the_place() -> None:
+    with pytest.raises(ContactError) as caught:
+        only(REFUSED["bore tangent to a face"])
+    for part in ("bore.side", "cube.zmax", "near (", "1)"):
+        assert part in str(caught.value)
+
+
+def test_touching_regions_are_no_overlap() -> None:
+    ball = Sphere((0, 0, 0), 0.5)
+    found = Geometry({"shell": CUBE - ball, "core": ball})
+    assert sum(region.volume for region in found.regions) == pytest.approx(8)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (CUBE, CUBE.translate((0.5, 0.3, 0.1))),
+        (CUBE, Sphere((0, 0, 0), 0.5)),
+        (Sphere((0, 0, 0), 0.5), CUBE),
+        (Sphere((0, 0, 0), 1), Sphere((0, 0, 0), 1)),
+        (Sphere((0, 0, 0), 1), Sphere((1.9, 0, 0), 1)),
+        (CUBE, CUBE),
+        (Torus((0, 0, 0), (0, 0, 1), 2, 0.5), CUBE.translate((0.7, 0, 0))),
+    ],
+)
+def test_an_overlap_names_both_regions_and_a_common_point(first: Solid, second: Solid) -> None:
+    with pytest.raises(OverlapError) as caught:
+        Geometry({"first": first, "second": second})
+    message = str(caught.value)
+    assert "'first'" in message
+    assert "'second'" in message
+    point = [float(x) for x in message.split("point (")[1].split(")")[0].split(",")]
+    for solid in (first, second):
+        assert Geometry(solid).contains([point])[0]
+
+
+@pytest.mark.parametrize(
+    ("solid", "direction"),
+    [
+        (HalfSpace((0, 0, 0), (0, 0, 1)), None),
+        (InfiniteCylinder((0, 0, 0), (0, 0, 1), 1), (0, 0, 1)),
+        (
+            InfiniteCylinder((0, 0, 0), (0, 0, 1), 1) & HalfSpace((0, 0, 0), (0, 0, 1)),
+            (0, 0, -1),
+        ),
+        (~Sphere((0, 0, 0), 1), None),
+        (CUBE | ~CUBE, None),
+        (
+            HalfSpace((0, 0, 0), (-1, 0, 0)) & HalfSpace((1, 0, 0), (1, 0, 0)),
+            None,
+        ),
+    ],
+)
+def test_an_unbounded_region_names_a_direction(
+    solid: Solid, direction: tuple[float, float, float] | None
+) -> None:
+    with pytest.raises(UnboundedRegionError, match="reaches infinity in direction") as caught:
+        only(solid)
+    if direction:
+        text = str(caught.value).split("direction (")[1].split(")")[0]
+        found = [float(x) for x in text.split(",")]
+        assert found == pytest.approx(direction, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        CUBE - CUBE,
+        CUBE & ~CUBE,
+        CUBE & Sphere((9, 0, 0), 1),
+        CUBE & Block((1, -1, -1), (2, 2, 2)),
+        CUBE - Block((-2, -2, -2), (4, 4, 4)),
+    ],
+)
+def test_an_empty_region_says_so(solid: Solid) -> None:
+    with pytest.raises(EmptyRegionError, match="region 'solid' is empty"):
+        only(solid)
