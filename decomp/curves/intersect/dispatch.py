@@ -39,7 +39,7 @@ def intersect(
     window = Window(np.asarray(centre, dtype=np.float64), float(radius), float(tolerance))
     if a.coincides(b, tolerance, radius):
         raise ContactError(f"{a.kind} and {b.kind} are the same surface")
-    if (a.code, id(a)) > (b.code, id(b)):
+    if (a.code, a.packed().tolist()) > (b.code, b.packed().tolist()):
         a, b = b, a
     found = _closed_form(a, b, window)
     if found is None:
