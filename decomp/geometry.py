@@ -6,7 +6,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from decomp.boundary.build import Boundaries, boundaries
 from decomp.boundary.topology import RegionBoundary
@@ -63,7 +64,7 @@ class Geometry:
         """Whether points (n, 3) lie in some region: (n,) bool."""
         return self.index.contains(points)
 
-    def region_of(self, points: ArrayLike) -> Array:
+    def region_of(self, points: ArrayLike) -> NDArray[np.int32]:
         """The index (n,) of the region that holds each point (n, 3), -1 outside all."""
         return self.index.region_of(points)
 

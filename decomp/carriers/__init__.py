@@ -5,6 +5,7 @@ from decomp.carriers.cone import Cone
 from decomp.carriers.cylinder import Cylinder
 from decomp.carriers.plane import Plane
 from decomp.carriers.sphere import Sphere
+from decomp.carriers.table import CarrierTable
 from decomp.carriers.torus import Torus
 
-__all__ = ["Carrier", "Cone", "Cylinder", "Plane", "Sphere", "Torus"]
+__all__ = ["Carrier", "CarrierTable", "Cone", "Cylinder", "Plane", "Sphere", "Torus"]

@@ -127,7 +127,8 @@ def _region_text(region: RegionBoundary) -> list[str]:
 
 def _shapes(counts: Counter[tuple[str, str]]) -> str:
     parts = [
-        f"{count} {convexity} {kind}".rstrip() for (kind, convexity), count in sorted(counts.items())
+        f"{count} {convexity} {kind}".rstrip()
+        for (kind, convexity), count in sorted(counts.items())
     ]
     return f": {', '.join(parts)}" if parts else ""
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from decomp.carriers import Carrier, Cylinder, Plane, Sphere, Torus
 from decomp.csg.program import Program
-from decomp.vectors import Array
+from decomp.vectors import Array, Bools
 
 BOX_SLACK = 1e-6
 """Boxes are widened by this part of the model's scale, so that nothing ends on their faces."""
@@ -45,7 +45,7 @@ def extents(program: Program, carriers: tuple[Carrier, ...], slack: float) -> tu
     return regions.reshape(-1, 2, 3) + widen, active + widen
 
 
-def overlap(a: Array, b: Array) -> Array:
+def overlap(a: Array, b: Array) -> Bools:
     """Whether boxes (..., 2, 3) share a point: (...) bool."""
     return np.asarray(
         (a[..., 0, :] <= b[..., 1, :]).all(axis=-1) & (b[..., 0, :] <= a[..., 1, :]).all(axis=-1)

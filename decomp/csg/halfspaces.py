@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from decomp.carriers import Carrier, Sphere, Torus
+from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
 from decomp.csg.extents import BOX_SLACK, extents
 from decomp.csg.model import Model
 from decomp.csg.primitives import Primitive
@@ -29,7 +29,6 @@ from decomp.csg.solid import (
     no_options,
     walk,
 )
-from decomp.curves.table import CarrierTable
 from decomp.similarity import IDENTITY, Similarity
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools

@@ -157,8 +157,13 @@ class ProgramBuilder:
             operands.extend(2 * number[ref >> 1] + (ref & 1) for ref in parts)
             start.append(len(operands))
         renumbered = [2 * number[ref >> 1] + (ref & 1) for ref in roots]
-        as_ints = [np.array(a, dtype=np.int64) for a in (literal, start, operands, renumbered)]
-        return Program(*as_ints, np.array(boxes))
+        return Program(
+            np.array(literal, dtype=np.int64),
+            np.array(start, dtype=np.int64),
+            np.array(operands, dtype=np.int64),
+            np.array(renumbered, dtype=np.int64),
+            np.array(boxes),
+        )
 
     def _count_uses(self, roots: Sequence[int]) -> dict[int, list[bool]]:
         """For each needed node, its uses: `False` for a plain use in an AND, `True` otherwise."""

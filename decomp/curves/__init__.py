@@ -9,11 +9,9 @@ from decomp.curves.intersect import Intersection, PairCurve, intersect
 from decomp.curves.line import Line
 from decomp.curves.meeting import may_meet, meeting_pairs
 from decomp.curves.parabola import Parabola
-from decomp.curves.table import CarrierTable
 from decomp.curves.traced import TracedCurve
 
 __all__ = [
-    "CarrierTable",
     "Circle",
     "Crossings",
     "Curve",

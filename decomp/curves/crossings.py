@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.carriers import Carrier
+from decomp.carriers.table import CarrierTable
 from decomp.curves.algebraic import conic_roots
 from decomp.curves.base import Curve
 from decomp.curves.sampled import traced_roots
-from decomp.curves.table import CarrierTable
 from decomp.curves.traced import TracedCurve
 from decomp.vectors import Array, Bools, Ints, norm
 

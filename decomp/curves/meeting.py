@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.carriers import Carrier, Cylinder, Plane, Sphere, Torus
-from decomp.curves.table import CarrierTable
+from decomp.carriers.table import CarrierTable
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 BLOCK = 2_000_000
@@ -93,9 +93,7 @@ def _planes(
     fa = dot(centre - a[:, :3], a[:, 3:6])[:, None]
     fb = dot(centre - b[:, :3], b[:, 3:6])[:, None]
     foot = np.cross(fa * b[:, 3:6] - fb * a[:, 3:6], cross)
-    return np.asarray(
-        (size * radius > tolerance) & (norm(foot) <= (radius + tolerance) * size**2)
-    )
+    return np.asarray((size * radius > tolerance) & (norm(foot) <= (radius + tolerance) * size**2))
 
 
 def _plane_cylinder(

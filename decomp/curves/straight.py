@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers.table import CarrierTable
 from decomp.curves.crossings import crossings
 from decomp.curves.line import Line
-from decomp.curves.table import CarrierTable
 from decomp.vectors import Array, Bools, Ints
 
 

@@ -48,9 +48,7 @@ class TracedCurve(Curve):
         knots = np.concatenate([[0.0], np.cumsum(chords)])
         tangents = self.tangents
         if tangents is None:
-            tangents = sample_tangents(
-                self.a, self.b, self.samples, self.closed, self.singular
-            )
+            tangents = sample_tangents(self.a, self.b, self.samples, self.closed, self.singular)
         if self.closed:
             tangents = np.concatenate([tangents, tangents[:1]])
         object.__setattr__(self, "samples", points)

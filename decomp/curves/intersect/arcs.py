@@ -99,9 +99,7 @@ def _span(
     n = INTERIOR + int(PER_TURN * width / (2 * np.pi))
     s = (np.arange(n) + GENERIC) * np.pi / n
     u = (start + stop) / 2 - width / 2 * np.cos(s)
-    offsets = [
-        min(max([OFFSET * width, *(3 * e.zone for e in g)]), width / 4) for g in groups
-    ]
+    offsets = [min(max([OFFSET * width, *(3 * e.zone for e in g)]), width / 4) for g in groups]
     count = len(zeros(f, np.array([start + GENERIC * width]), chart.low, chart.high)[0])
     if count == 0:
         return [], []

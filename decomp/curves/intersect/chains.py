@@ -38,9 +38,7 @@ def chains(net: Network, a: Carrier, b: Carrier, size: float) -> list[TracedCurv
     return [c for c in curves if c is not None]
 
 
-def _walk(
-    net: Network, start: End, left: set[int], a: Carrier, b: Carrier
-) -> TracedCurve | None:
+def _walk(net: Network, start: End, left: set[int], a: Carrier, b: Carrier) -> TracedCurve | None:
     """Follow the joints from one end until a last point, or round to the start."""
     pieces: list[Array] = []
     first = net.joints[start]
@@ -97,9 +95,7 @@ def traced(
     return TracedCurve(a, b, p, closed=closed, tangents=t, singular=singular)
 
 
-def _tangents(
-    a: Carrier, b: Carrier, p: Array, closed: bool, singular: tuple[bool, bool]
-) -> Array:
+def _tangents(a: Carrier, b: Carrier, p: Array, closed: bool, singular: tuple[bool, bool]) -> Array:
     return sample_tangents(a, b, p, closed, singular)
 
 
@@ -126,9 +122,7 @@ def _halved(a: Carrier, b: Carrier, p: Array, t: Array, closed: bool, wide: Arra
     return np.insert(p, i + 1, middle, axis=0)
 
 
-def _thinned(
-    a: Carrier, b: Carrier, p: Array, closed: bool, singular: tuple[bool, bool]
-) -> Array:
+def _thinned(a: Carrier, b: Carrier, p: Array, closed: bool, singular: tuple[bool, bool]) -> Array:
     """Leave out samples that stand much closer than the turning asks for."""
     t = _tangents(a, b, p, closed, singular)
     step = norm(np.diff(p, axis=0))

@@ -80,9 +80,7 @@ def exits(f: Pulled, chart: Chart, apex: bool) -> list[Event]:
         if apex and kind is Kind.LOW:
             double = _doubles(np.angle(z[off < 1e-5]))
             found += [_cusp(chart, u) for u in double]
-            other = [
-                not any(abs(np.sin((u - w) / 2)) < 1e-4 for w in double) for u in np.angle(z)
-            ]
+            other = [not any(abs(np.sin((u - w) / 2)) < 1e-4 for w in double) for u in np.angle(z)]
             z, off = z[other], off[other]
         if np.any((off > 1e-9) & (off < 1e-5)):
             raise UnresolvedError

@@ -170,9 +170,7 @@ def _isoline(chart: Chart, u: float, window: Window) -> Curve | None:
     if isinstance(chart, Rulings):
         p, q = chart.point(np.full(2, u), np.array([0.0, chart.high]))
         d = (q - p) / norm(q - p)
-        line: Line | None = (
-            ray(p, d, window) if chart.radius == 0.0 else clipped_line(p, d, window)
-        )
+        line: Line | None = ray(p, d, window) if chart.radius == 0.0 else clipped_line(p, d, window)
         return line
     p, q = chart.point(np.full(2, u), np.array([0.0, np.pi]))
     centre, x = (p + q) / 2, (p - q) / norm(p - q)

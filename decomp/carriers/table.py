@@ -6,7 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers.base import Carrier
+from decomp.carriers.cone import Cone
+from decomp.carriers.cylinder import Cylinder
+from decomp.carriers.plane import Plane
+from decomp.carriers.sphere import Sphere
+from decomp.carriers.torus import Torus
 from decomp.vectors import Array, Ints, dot, norm
 
 
