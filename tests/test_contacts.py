@@ -147,7 +147,7 @@ def test_degenerate_positions_are_resolved(name: str) -> None:
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_solids_that_touch_themselves_are_refused(name: str) -> None:
-    with pytest.raises(ContactError, match="touches itself|touch"):
+    with pytest.raises(ContactError, match="touch"):
         only(REFUSED[name])
 
 

@@ -14,7 +14,7 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves.circle import Circle
 from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
-from decomp.vectors import Array, cross, norm
+from decomp.vectors import Array, Bools, cross, norm
 
 TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """A rotation by odd angles, so that steps do not run along the model's own planes."""
