@@ -103,8 +103,10 @@ def interior_point(walker: Walker, loops: Sequence[Sequence[HalfEdge]]) -> Array
             for f in edge.flanks
             if f.carrier == walker.loops.carrier and f.direction_of_loop == halves[index].direction
         )
-        for step in (0.1, 1e-2, 1e-3, 1e-4):
-            way = np.linspace(0.02, 1.0, 25)[:, None] * step * lengths[index] * flank.direction
+        for step in 10.0 ** -np.arange(1, 10) * lengths[index]:
+            if step < walker.member.form.tolerance:
+                break
+            way = np.linspace(0.02, 1.0, 25)[:, None] * step * flank.direction
             path = carrier.project(edge.point + way)
             if walker.on_face(path).all():
                 return np.asarray(path[-1])
