@@ -81,6 +81,31 @@ def torus_below(major: float, minor: float, c: float) -> float:
     return float(value[0])
 
 
+def crossing_length(r: float, s: float) -> float:
+    """Length of one of the two curves in which cylinders of radii r < s cross at right angles."""
+
+    def speed(t: float) -> float:
+        return sqrt(r**2 + (r**2 * sin(t) * cos(t)) ** 2 / (s**2 - (r * sin(t)) ** 2))
+
+    return integral(speed, 0, 2 * pi)
+
+
+def ellipse_length(a: float, b: float) -> float:
+    """Circumference of an ellipse."""
+    return integral(lambda t: sqrt((a * sin(t)) ** 2 + (b * cos(t)) ** 2), 0, 2 * pi)
+
+
+def spiric_length(major: float, minor: float, c: float) -> float:
+    """Length of one of the two ovals in which the plane x = c < major - minor cuts a torus."""
+
+    def speed(t: float) -> float:
+        rho = major + minor * cos(t)
+        slope = -minor * sin(t) * rho / sqrt(rho**2 - c**2)
+        return sqrt(slope**2 + (minor * cos(t)) ** 2)
+
+    return integral(speed, 0, 2 * pi)
+
+
 def cap(r: float, h: float) -> float:
     """Volume of a spherical cap of height h."""
     return pi * h**2 * (3 * r - h) / 3
@@ -144,8 +169,8 @@ def oblique_cone() -> Solid:
     return Block((-3, -3, 0), (8, 6, 2), name="plate") - bore
 
 
-def oblique_cone_volume() -> float:
-    """The bore's section at depth h below the apex is an ellipse with semi-axes in proportion."""
+def oblique_cone_section() -> tuple[float, float]:
+    """Semi-axes of the elliptic section of the bore at depth 1 below its apex."""
     tilt, half = radians(15), radians(5)
     low, high = tan(tilt - half), tan(tilt + half)
     a = (high - low) / 2
@@ -153,7 +178,18 @@ def oblique_cone_volume() -> float:
     # width across, where the line z = -1, x = middle meets the cone
     along = middle * sin(tilt) + cos(tilt)
     b = sqrt((along / cos(half)) ** 2 - middle**2 - 1)
+    return a, b
+
+
+def oblique_cone_volume() -> float:
+    """The sections at depths 4 to 6 below the apex grow in proportion to the depth."""
+    a, b = oblique_cone_section()
     return 8 * 6 * 2 - pi * a * b * (6**3 - 4**3) / 3
+
+
+def oblique_cone_edges() -> float:
+    """Length of the two ellipses in which the bore meets the plate's faces."""
+    return (6 + 4) * ellipse_length(*oblique_cone_section())
 
 
 def capsule() -> Solid:
@@ -234,6 +270,7 @@ SOLIDS: dict[str, Case] = {
         {CIRCLES: 1},
         {CONVEX: 1},
         area=pi * (1 + sqrt(5)),
+        length={CONVEX: 2 * pi},
     ),
     "frustum": Case(
         lambda: Cone((0, 0, 0), 1, (0, 0, 2), 0.5),
@@ -242,6 +279,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 2, "cone": 1},
         {CIRCLES: 2},
         area=pi * (1.25 + 1.5 * sqrt(4.25)),
+        length={CONVEX: 3 * pi},
     ),
     "conical pit": Case(
         lambda: Block((-2, -2, 0), (4, 4, 2)) - Cone((0, 0, 0.5), 0, (0, 0, 2.5), 1),
@@ -250,6 +288,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cone": 1},
         {LINES: 12, CIRCLES: 1},
         {CONVEX: 8, REENTRANT: 1},
+        length={CONVEX: 40 + 1.5 * pi},
     ),
     "sphere": Case(lambda: Sphere((1, 2, 3), 2), 32 * pi / 3, 1, {"sphere": 1}, area=16 * pi),
     "torus": Case(
@@ -279,6 +318,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cylinder": 1},
         {LINES: 12, CIRCLES: 2},
         {CONVEX: 8},
+        length={CONVEX: 40 + 4 * pi},
     ),
     "blind hole": Case(
         blind_hole,
@@ -298,7 +338,7 @@ SOLIDS: dict[str, Case] = {
         {LINES: 17, ("line", REENTRANT): 1},
         {CONVEX: 10, SADDLE: 2},
         40,
-        {REENTRANT: 2},
+        length={CONVEX: 38, REENTRANT: 2},
     ),
     "cross-drilled block": Case(
         lambda: cross_drilled(0.7),
@@ -307,6 +347,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cylinder": 3},
         {LINES: 12, CIRCLES: 4, ("curve", CONVEX): 2},
         {CONVEX: 8},
+        length={CONVEX: 48 + 4 * pi * 1.7 + 2 * crossing_length(0.7, 1)},
     ),
     "equally cross-drilled block": Case(
         lambda: cross_drilled(1.0),
@@ -315,6 +356,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cylinder": 4},
         {LINES: 12, CIRCLES: 4, ("ellipse", CONVEX): 4},
         {CONVEX: 10},
+        length={CONVEX: 48 + 8 * pi + 2 * ellipse_length(1, sqrt(2))},
     ),
     "unequal tee": Case(
         lambda: tee(0.6),
@@ -322,6 +364,7 @@ SOLIDS: dict[str, Case] = {
         1,
         {"plane": 3, "cylinder": 2},
         {CIRCLES: 3, ("curve", REENTRANT): 1},
+        length={CONVEX: 5.2 * pi, REENTRANT: crossing_length(0.6, 1)},
     ),
     "equal tee": Case(
         lambda: tee(1.0),
@@ -330,6 +373,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 3, "cylinder": 2},
         {CIRCLES: 3, ("ellipse", REENTRANT): 2},
         {REENTRANT: 2},
+        length={CONVEX: 6 * pi, REENTRANT: ellipse_length(1, sqrt(2))},
     ),
     "bite in a face": Case(
         lambda: ball_bite((2, 1, 1), 0.5),
@@ -339,6 +383,7 @@ SOLIDS: dict[str, Case] = {
         {LINES: 12, CIRCLES: 1},
         {CONVEX: 8},
         24 + pi / 4,
+        length={CONVEX: 24 + pi},
     ),
     "bite in a corner": Case(
         lambda: ball_bite((2, 2, 2), 1),
@@ -356,6 +401,7 @@ SOLIDS: dict[str, Case] = {
         1,
         {"torus": 1, "plane": 2},
         {("curve", CONVEX): 2},
+        length={CONVEX: 2 * spiric_length(2, 0.5, 1)},
     ),
     "torus cut in one oval": Case(
         lambda: cut_torus(1.8),
@@ -371,6 +417,7 @@ SOLIDS: dict[str, Case] = {
         {"torus": 1, "plane": 2},
         {CIRCLES: 2},
         area=2 * pi**2 + pi / 2,
+        length={CONVEX: 2 * pi},
     ),
     "fichera": Case(
         fichera,
@@ -380,7 +427,7 @@ SOLIDS: dict[str, Case] = {
         {LINES: 18, ("line", REENTRANT): 3},
         {CONVEX: 10, SADDLE: 3, REENTRANT: 1},
         24,
-        {REENTRANT: 3},
+        length={CONVEX: 27, REENTRANT: 3},
     ),
     "pocket": Case(
         pocket,
@@ -390,6 +437,7 @@ SOLIDS: dict[str, Case] = {
         {LINES: 16, ("line", REENTRANT): 8},
         {CONVEX: 8, SADDLE: 4, REENTRANT: 4},
         64 + 8,
+        length={CONVEX: 48, REENTRANT: 12},
     ),
     "lens": Case(
         lens,
@@ -407,6 +455,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cone": 1},
         {LINES: 12, ("ellipse", CONVEX): 2},
         {CONVEX: 8},
+        length={CONVEX: 8 * 4 + 6 * 4 + 2 * 4 + oblique_cone_edges()},
     ),
     "capsule": Case(
         capsule,
@@ -415,6 +464,7 @@ SOLIDS: dict[str, Case] = {
         {"sphere": 2, "cylinder": 1},
         {("circle", SMOOTH): 2},
         area=2 * pi + pi,
+        length={SMOOTH: 2 * pi},
     ),
     "slot": Case(
         slot,
@@ -424,6 +474,7 @@ SOLIDS: dict[str, Case] = {
         {LINES: 16, CIRCLES: 4, ("line", SMOOTH): 4},
         {CONVEX: 16},
         38 - 4 - pi / 2 + 4 + pi,
+        length={CONVEX: 40 + 2 * pi, SMOOTH: 4},
     ),
     "pipe elbow": Case(
         elbow,
@@ -432,6 +483,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 2, "torus": 1, "cylinder": 1},
         {CIRCLES: 2, ("circle", SMOOTH): 1},
         area=pi**2 + 3 * pi + pi / 2,
+        length={CONVEX: 2 * pi, SMOOTH: pi},
     ),
     "countersink": Case(
         countersink,
@@ -440,6 +492,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 6, "cone": 1},
         {LINES: 12, CIRCLES: 2},
         {CONVEX: 8},
+        length={CONVEX: 52 + 2 * pi * (1 + tan(radians(26)))},
     ),
     "round boss": Case(
         round_boss,
@@ -448,6 +501,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 7, "cylinder": 1},
         {LINES: 12, CIRCLES: 1, ("circle", REENTRANT): 1},
         {CONVEX: 8},
+        length={CONVEX: 36 + 1.4 * pi, REENTRANT: 1.4 * pi},
     ),
     "square boss": Case(
         square_boss,
@@ -456,6 +510,7 @@ SOLIDS: dict[str, Case] = {
         {"plane": 11},
         {LINES: 20, ("line", REENTRANT): 4},
         {CONVEX: 12, SADDLE: 4},
+        length={CONVEX: 48, REENTRANT: 8},
     ),
     "oval ring": Case(
         oval_ring, oval_ring_volume(), 0, {"torus": 2}, {CIRCLES: 2}, length={CONVEX: 2 * pi * 6.8}
@@ -467,5 +522,6 @@ SOLIDS: dict[str, Case] = {
         {"plane": 10},
         {LINES: 20, ("line", REENTRANT): 4},
         {CONVEX: 8, SADDLE: 8},
+        length={CONVEX: 44, REENTRANT: 8},
     ),
 }
