@@ -1,0 +1,57 @@
+"""How numerical kernels are compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from numba import njit
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def kernel(function: F) -> F:
+    """Compile a function on first use, without the GIL, and cache it where that can be done.
+
+    Numba keeps the machine code beside the source or in the user's cache directory. Where
+    neither is writable it is compiled again in every process.
+    """
+    return _compiled(function)
+
+
+def scalar(function: F) -> F:
+    """A kernel that makes no arrays, only reads and fills given ones.
+
+    Numba counts references to every array of a tuple whenever the tuple is touched, which can
+    cost more than the arithmetic; without new arrays there is nothing to count.
+    """
+    return _compiled(function, _nrt=False)
+
+
+def inlined(function: F) -> F:
+    """A scalar kernel that is compiled into its callers."""
+    return _compiled(function, _nrt=False, forceinline=True)
+
+
+def _compiled(function: F, **options: bool) -> F:
+    common: dict[str, Any] = {"nogil": True, "error_model": "numpy", **options}
+    try:
+        compiled: Any = njit(cache=True, **common)(function)
+    except RuntimeError:  # numba found no directory to write to
+        return cast(F, njit(**common)(function))
+    # numba renews a cached kernel when its own file changes; it must also be renewed when a
+    # kernel changes that it calls in another file
+    with suppress(AttributeError):
+        compiled._cache._cache_file._source_stamp = _STAMP
+    return cast(F, compiled)
+
+
+def _stamp() -> tuple[float, int]:
+    """Latest change and total size of the files with kernels."""
+    stats = [file.stat() for file in Path(__file__).parent.glob("*.py")]
+    return max((s.st_mtime for s in stats), default=0.0), sum(s.st_size for s in stats)
+
+
+_STAMP = _stamp()

@@ -1,0 +1,198 @@
+"""The nearest point of an edge: closed form on lines and circles, Newton between samples elsewhere.
+
+Notation: p the query point, a and b the signed distances to the two carriers of the edge, u in
+[0, 1] the position on the chord between two samples, C(u) the curve's point across from it.
+"""
+
+from __future__ import annotations
+
+from math import atan2, cos, inf, pi, sin, sqrt
+
+from decomp.sites.carrier_kernels import CarrierTable, Triple, normal, signed_distance
+from decomp.sites.compiled import scalar
+from decomp.vectors import Array
+
+LINE, ARC, SAMPLED = range(3)
+SINGULAR = 1e-6
+
+
+@scalar
+def line_foot(
+    data: Array, e: int, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """On a segment: start point (0:3), unit direction (3:6), length (9).
+
+    Returns:
+        The foot, and how far p's projection lies beyond the nearer end (0 if it is between them).
+    """
+    dx, dy, dz = data[e, 3], data[e, 4], data[e, 5]
+    t = (x - data[e, 0]) * dx + (y - data[e, 1]) * dy + (z - data[e, 2]) * dz
+    beyond = max(-t, t - data[e, 9], 0.0)
+    t = min(max(t, 0.0), data[e, 9])
+    return data[e, 0] + t * dx, data[e, 1] + t * dy, data[e, 2] + t * dz, beyond
+
+
+@scalar
+def arc_foot(
+    data: Array, e: int, x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """On an arc: centre (0:3), x (3:6), y (6:9), radius (9), first and last angle (10, 11).
+
+    Returns:
+        The foot, and the angle by which p lies beyond the nearer end (0 if between them).
+    """
+    vx, vy, vz = x - data[e, 0], y - data[e, 1], z - data[e, 2]
+    u = vx * data[e, 3] + vy * data[e, 4] + vz * data[e, 5]
+    v = vx * data[e, 6] + vy * data[e, 7] + vz * data[e, 8]
+    start, end = data[e, 10], data[e, 11]
+    past, beyond = (atan2(v, u) - start) % (2 * pi), 0.0
+    if past > end - start:
+        beyond = min(2 * pi - past, past - (end - start))
+        past = 0.0 if 2 * pi - past == beyond else end - start
+    u, v = data[e, 9] * cos(start + past), data[e, 9] * sin(start + past)
+    return (
+        data[e, 0] + u * data[e, 3] + v * data[e, 6],
+        data[e, 1] + u * data[e, 4] + v * data[e, 7],
+        data[e, 2] + u * data[e, 5] + v * data[e, 8],
+        beyond,
+    )
+
+
+@scalar
+def chord_foot(samples: Array, i: int, x: float, y: float, z: float) -> float:
+    """Distance from the chord between samples i and i + 1."""
+    ax, ay, az = samples[i, 0], samples[i, 1], samples[i, 2]
+    wx, wy, wz = samples[i + 1, 0] - ax, samples[i + 1, 1] - ay, samples[i + 1, 2] - az
+    square = wx * wx + wy * wy + wz * wz
+    u = 0.0
+    if square > 0.0:
+        u = min(max(((x - ax) * wx + (y - ay) * wy + (z - az) * wz) / square, 0.0), 1.0)
+    rx, ry, rz = x - ax - u * wx, y - ay - u * wy, z - az - u * wz
+    return sqrt(rx * rx + ry * ry + rz * rz)
+
+
+@scalar
+def curve_point(
+    table: CarrierTable, a: int, b: int, samples: Array, i: int, u: float
+) -> tuple[bool, float, float, float, float, float, float]:
+    """C(u) between samples i and i + 1, and the curve's tangent there, not of unit length.
+
+    The first value is False where the two carriers touch, so that there is no such point.
+    """
+    ax, ay, az = samples[i, 0], samples[i, 1], samples[i, 2]
+    wx, wy, wz = samples[i + 1, 0] - ax, samples[i + 1, 1] - ay, samples[i + 1, 2] - az
+    chord = sqrt(wx * wx + wy * wy + wz * wz)
+    x, y, z = ax + u * wx, ay + u * wy, az + u * wz
+    tx, ty, tz = wx, wy, wz
+    if chord == 0.0:
+        return False, x, y, z, tx, ty, tz
+    wx, wy, wz = wx / chord, wy / chord, wz / chord
+    for _ in range(8):
+        nx, ny, nz = normal(table, a, x, y, z)
+        mx, my, mz = normal(table, b, x, y, z)
+        tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
+        det = tx * wx + ty * wy + tz * wz
+        if abs(det) < SINGULAR:
+            return False, x, y, z, tx, ty, tz
+        da, db = signed_distance(table, a, x, y, z), signed_distance(table, b, x, y, z)
+        # across the chord: n.step = -da, m.step = -db, w.step = 0
+        x -= (da * (my * wz - mz * wy) + db * (wy * nz - wz * ny)) / det
+        y -= (da * (mz * wx - mx * wz) + db * (wz * nx - wx * nz)) / det
+        z -= (da * (mx * wy - my * wx) + db * (wx * ny - wy * nx)) / det
+        if abs(da) + abs(db) <= 1e-15 * chord:
+            break
+    if det < 0.0:
+        tx, ty, tz = -tx, -ty, -tz
+    return True, x, y, z, tx, ty, tz
+
+
+@scalar
+def chord_gap(table: CarrierTable, a: int, b: int, samples: Array, i: int) -> float:
+    """Bound on the distance between the curve and the chord from sample i to the next."""
+    wx, wy, wz = (
+        samples[i + 1, 0] - samples[i, 0],
+        samples[i + 1, 1] - samples[i, 1],
+        samples[i + 1, 2] - samples[i, 2],
+    )
+    gap = 0.0
+    for k in range(1, 4):
+        u = 0.25 * k
+        good, x, y, z, _, _, _ = curve_point(table, a, b, samples, i, u)
+        if not good:
+            return 0.25 * sqrt(wx * wx + wy * wy + wz * wz)
+        rx, ry, rz = x - samples[i, 0] - u * wx, y - samples[i, 1] - u * wy, z - samples[i, 2]
+        rz -= u * wz
+        gap = max(gap, sqrt(rx * rx + ry * ry + rz * rz))
+    return 1.5 * gap
+
+
+@scalar
+def advance(
+    table: CarrierTable, a: int, b: int, samples: Array, i: int, u: float, p: Triple
+) -> tuple[bool, float, Triple]:
+    """How far p lies ahead of C(u) along the tangent there (of any length), and C(u)."""
+    good, x, y, z, tx, ty, tz = curve_point(table, a, b, samples, i, u)
+    return good, (p[0] - x) * tx + (p[1] - y) * ty + (p[2] - z) * tz, (x, y, z)
+
+
+@scalar
+def between_samples(
+    table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
+) -> tuple[bool, Triple]:
+    """The nearest point strictly between two samples, if there is one (regula falsi)."""
+    low, high = 0.0, 1.0
+    good, ahead, q = advance(table, a, b, samples, i, low, p)
+    good2, behind, _ = advance(table, a, b, samples, i, high, p)
+    if not (good and good2 and ahead > 0.0 and behind < 0.0):
+        return False, q
+    for _ in range(60):
+        u = high - behind * (high - low) / (behind - ahead)
+        if not low < u < high:
+            break
+        good, value, q = advance(table, a, b, samples, i, u, p)
+        if not good:
+            return False, q
+        if value == 0.0:
+            break
+        if value > 0.0:
+            factor = value / (value + ahead)
+            low, ahead, behind = u, value, behind * (1.0 - factor)
+        else:
+            factor = value / (value + behind)
+            high, behind, ahead = u, value, ahead * (1.0 - factor)
+        if high - low < 1e-14:
+            break
+    return True, q
+
+
+@scalar
+def sampled_foot(
+    table: CarrierTable,
+    carriers: tuple[int, int],
+    samples: Array,
+    span: tuple[int, int],
+    gap: float,
+    p: Triple,
+) -> tuple[float, float, float, int]:
+    """On a curve through samples span[0] to span[1], at most `gap` away from their chords.
+
+    Returns:
+        The foot, and which sample it is (-1 for a point between two).
+    """
+    best, x, y, z, which = inf, 0.0, 0.0, 0.0, -1
+    for i in range(span[0], span[1] + 1):
+        rx, ry, rz = samples[i, 0] - p[0], samples[i, 1] - p[1], samples[i, 2] - p[2]
+        square = rx * rx + ry * ry + rz * rz
+        if square < best:
+            best, x, y, z, which = square, samples[i, 0], samples[i, 1], samples[i, 2], i
+    best = sqrt(best)
+    for i in range(span[0], span[1]):
+        if chord_foot(samples, i, p[0], p[1], p[2]) - gap >= best:
+            continue
+        found, q = between_samples(table, carriers[0], carriers[1], samples, i, p)
+        if found:
+            rx, ry, rz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
+            away = sqrt(rx * rx + ry * ry + rz * rz)
+            if away < best:
+                best, x, y, z, which = away, q[0], q[1], q[2], -1
+    return x, y, z, which

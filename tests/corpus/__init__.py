@@ -1,0 +1,1 @@
+"""Files of other projects, checked by means that share nothing with the package."""

@@ -1,0 +1,1 @@
+"""Laws that random models must obey."""
