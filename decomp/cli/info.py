@@ -31,10 +31,13 @@ def register(commands: Any) -> None:
 def run(options: argparse.Namespace) -> None:
     """Load, compute, print."""
     from decomp.boundary.build import boundaries
+    from decomp.cli.progress import working
     from decomp.formats import load
 
-    model = load(options.model)
-    result = boundaries(model)
+    with working(f"reading {options.model.name}"):
+        model = load(options.model)
+    with working(f"computing the boundary of {model.name}"):
+        result = boundaries(model)
     if options.json:
         print(json.dumps(as_json(model, result), indent=1))
     else:

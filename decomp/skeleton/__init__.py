@@ -1,0 +1,1 @@
+"""The interior skeleton: maximal inscribed balls, and points at equal distance from sites."""
