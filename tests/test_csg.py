@@ -64,7 +64,7 @@ BAD_INPUT: dict[str, tuple[Callable[[], object], str]] = {
 @pytest.mark.parametrize("name", BAD_INPUT)
 def test_bad_input_is_refused_with_the_value(name: str) -> None:
     make, message = BAD_INPUT[name]
-    with pytest.raises(InputError, match=".") as caught:
+    with pytest.raises(InputError) as caught:
         make()
     assert message in str(caught.value)
 
