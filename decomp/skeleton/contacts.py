@@ -11,7 +11,7 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.sites import SiteIndex
 from decomp.sites.site import Site, SiteKind
 from decomp.skeleton.fields import site_fields
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Ints, norm
 
 TOWARDS = 0.3
 
@@ -55,7 +55,7 @@ def contacts(
 
 
 def _grouped(
-    sites: Sequence[Site], point: Array, radius: float, which: Array, feet: Array, gap: float
+    sites: Sequence[Site], point: Array, radius: float, which: Ints, feet: Array, gap: float
 ) -> Contacts:
     """Join sites that share a foot."""
     order = {SiteKind.VERTEX: 0, SiteKind.EDGE: 1, SiteKind.FACE: 2}

@@ -103,8 +103,9 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
         bend = _bending(a, b, foot, tangent)
         stretch = 1 - dot(points - foot, bend)
         rows = np.stack([na, nb, tangent * stretch[:, None]], axis=1)
-        step: Array = np.linalg.solve(rows, np.stack(residual, axis=1)[..., None])[..., 0]
-        foot = foot + step
+        right = np.stack(residual, axis=1)[..., None]
+        step = np.asarray(np.linalg.solve(rows, right)[..., 0], dtype=np.float64)
+        foot = np.asarray(foot + step, dtype=np.float64)
         if norm(step).max(initial=0.0) <= 1e-15 * (1 + np.abs(foot).max(initial=0.0)):
             break
     return foot

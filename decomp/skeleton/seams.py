@@ -9,14 +9,14 @@ and the neighbouring site takes over: a trim, where the seam goes on smoothly).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
+from decomp.sites import Nearest, SiteIndex
 from decomp.skeleton.contacts import TOWARDS
 from decomp.skeleton.equidistance import equidistant
 from decomp.skeleton.local import seam_rays
@@ -147,6 +147,33 @@ class SeamTracer:
             ray.direction,
             ray.slope,
         )
+
+    def holds(self, state: State) -> bool:
+        """Whether a point is truly on the skeleton, with these sites."""
+        return self._check(state).same(state.sites)
+
+    def turned(self, state: State) -> State:
+        """The same point, travelling the other way."""
+        return replace(state, tangent=-state.tangent, slope=-state.slope)
+
+    def settled(self, point: Array, feet: Array, along: Array) -> State:
+        """The point of a seam next to `point`, whose contacts have feet near the given ones.
+
+        Where a foot is shared by several sites (on an edge), a query from a little way towards it
+        tells which of them is touched from here.
+        """
+        sites = tuple(int(k) for k in self._towards(point, feet).site)
+        for _ in range(4):
+            state = self.state(sites, point, feet, along)
+            if state is None:
+                break
+            if self.holds(state):
+                return state
+            sites = tuple(int(k) for k in self._towards(state.point, state.feet).site)
+        raise GeometryError(f"the seam near {place(point)} cannot be followed")
+
+    def _towards(self, point: Array, feet: Array) -> Nearest:
+        return self._index.nearest(point + TOWARDS * (feet - point))
 
     def _step(self, here: State, step: float) -> State | None:
         moved = self.state(here.sites, here.point + step * here.tangent, here.feet, here.tangent)
