@@ -20,6 +20,8 @@ Triple = tuple[float, float, float]
 
 PLANE, SPHERE, CYLINDER, CONE, TORUS = range(5)
 TINY = 1e-300
+ON_AXIS = 1e-30
+"""Square of the angle at the reference point below which a point counts as on the axis."""
 
 
 class CarrierTable(NamedTuple):
@@ -66,9 +68,13 @@ def radial(packed: Array, c: int, x: float, y: float, z: float) -> Triple:
     vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
     height = vx * ax + vy * ay + vz * az
     rx, ry, rz = vx - height * ax, vy - height * ay, vz - height * az
-    rho = sqrt(rx * rx + ry * ry + rz * rz)
-    if rho <= TINY:
+    # close to the axis rounding has left a part along it
+    along = rx * ax + ry * ay + rz * az
+    rx, ry, rz = rx - along * ax, ry - along * ay, rz - along * az
+    square = rx * rx + ry * ry + rz * rz
+    if square <= ON_AXIS * (vx * vx + vy * vy + vz * vz):
         return perpendicular_to(ax, ay, az)
+    rho = sqrt(square)
     return rx / rho, ry / rho, rz / rho
 
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites.occupancy import ANYWHERE, OccupancyTree
@@ -14,13 +17,16 @@ FaceLookup = Callable[[int, int, Array], Ints]
 """(region, carrier, points on it) -> the faces of the region that hold the points."""
 
 UNKNOWN, SEVERAL = -2, -1
+NEIGHBOURS = 12
 
 
 class FaceFinder:
-    """Finds faces of one region, remembering leaves of the octree that see only one face.
+    """Finds faces of one region, by the nearest edges and, where these leave a doubt, by `lookup`.
 
-    Within the ball around a leaf a carrier is connected. So if the edges in the ball belong to
-    one face of the carrier, or if there are none, only one face is there.
+    A carrier is connected within any ball, as the distance to the ball's centre has one local
+    minimum on it. So if all edges in a ball belong to one face of the carrier, no other face of
+    it is in the ball. Hence a point is in the face whose edge is nearest to it; and leaves of the
+    octree that see edges of one face only are remembered.
     """
 
     def __init__(
@@ -29,8 +35,7 @@ class FaceFinder:
         self._boundary, self._region = boundary, region
         self._occupancy, self._lookup = occupancy, lookup
         self._known = np.full(len(occupancy.leaves.carriers), UNKNOWN, dtype=np.int64)
-        self._balls = leaf_balls(occupancy)
-        self._edges: dict[int, tuple[Array, Array, Ints]] = {}
+        self._edges: dict[int, _EdgeBalls] = {}
 
     def find(self, carriers: Ints, feet: Array, slots: Ints) -> Ints:
         """Faces (n,) that hold feet (n, 3) on carriers (n,); slots as `on_boundary` gave them."""
@@ -39,45 +44,79 @@ class FaceFinder:
         new, which = np.unique(slots[inside], return_index=True)
         for slot, k in zip(new, which, strict=True):
             if self._known[slot] == UNKNOWN:
-                at = inside[k]
-                self._known[slot] = self._only_face(int(slot), int(carriers[at]), feet[at])
+                self._known[slot] = self._only_face(int(slot), int(carriers[inside[k]]))
         faces[inside] = self._known[slots[inside]]
-        rest = np.flatnonzero(faces == SEVERAL)
-        for carrier in np.unique(carriers[rest]):
-            part = rest[carriers[rest] == carrier]
-            faces[part] = self._lookup(self._region, int(carrier), feet[part])
+        for carrier in np.unique(carriers[faces == SEVERAL]):
+            part = np.flatnonzero((faces == SEVERAL) & (carriers == carrier))
+            faces[part] = self._edges_on(int(carrier)).owners(feet[part])
+            part = part[faces[part] == SEVERAL]
+            if len(part):
+                faces[part] = self._lookup(self._region, int(carrier), feet[part])
         return faces
 
-    def _only_face(self, slot: int, carrier: int, foot: Array) -> int:
-        leaf = int(np.searchsorted(self._occupancy.leaves.first_carrier, slot, side="right")) - 1
-        centre, radius = self._balls[leaf, :3], self._balls[leaf, 3]
-        points, reach, faces = self._edges_on(carrier)
-        near = np.linalg.norm(points - centre, axis=1) <= radius + reach
-        seen = np.unique(faces[near])
-        if len(seen) > 1:
-            return SEVERAL
-        if len(seen) == 1:
-            return int(seen[0])
-        return int(self._lookup(self._region, carrier, foot[None])[0])
+    @cached_property
+    def _balls(self) -> Array:
+        return leaf_balls(self._occupancy)
 
-    def _edges_on(self, carrier: int) -> tuple[Array, Array, Ints]:
-        """Balls that cover the edges of a carrier's faces: centres, radii, and the face."""
+    def _only_face(self, slot: int, carrier: int) -> int:
+        leaf = int(np.searchsorted(self._occupancy.leaves.first_carrier, slot, side="right")) - 1
+        seen = self._edges_on(carrier).within(self._balls[leaf, :3], self._balls[leaf, 3])
+        return int(seen[0]) if len(seen) == 1 else SEVERAL
+
+    def _edges_on(self, carrier: int) -> _EdgeBalls:
         if carrier not in self._edges:
-            centres: list[Array] = [np.empty((0, 3))]
-            radii: list[Array] = [np.empty(0)]
-            faces: list[Ints] = [np.empty(0, dtype=np.int64)]
-            for edge in self._boundary.edges:
-                points = edge.curve.point(np.linspace(edge.start, edge.end, 65))
-                chord = np.linalg.norm(np.diff(points, axis=0), axis=1)
-                for face in edge.faces:
-                    if self._boundary.faces[face].carrier == carrier:
-                        centres.append((points[1:] + points[:-1]) / 2)
-                        radii.append(0.75 * chord)
-                        faces.append(np.full(len(chord), face))
-            self._edges[carrier] = (
-                np.concatenate(centres), np.concatenate(radii), np.concatenate(faces)
-            )
+            self._edges[carrier] = _edge_balls(self._boundary, carrier)
         return self._edges[carrier]
+
+
+@dataclass(frozen=True, eq=False)
+class _EdgeBalls:
+    """Balls that cover the edges of the faces on one carrier: centres, radii, and the faces."""
+
+    centres: cKDTree
+    radii: Array
+    faces: Ints
+
+    def within(self, centre: Array, radius: float) -> Ints:
+        """The faces that may have an edge within a ball."""
+        reach = radius + self.radii.max()
+        near = np.array(self.centres.query_ball_point(centre, reach), dtype=np.int64)
+        gaps = np.linalg.norm(self.centres.data[near] - centre, axis=1)
+        return np.unique(self.faces[near[gaps <= radius + self.radii[near]]])
+
+    def owners(self, points: Array) -> Ints:
+        """The faces with the edges nearest to points (n, 3), SEVERAL where that is not certain."""
+        count = min(NEIGHBOURS, len(self.faces))
+        gaps, near = self.centres.query(points, k=np.arange(1, count + 1))
+        reach = gaps + self.radii[near]
+        row, first = np.arange(len(points)), reach.argmin(axis=1)
+        bound, owner = reach[row, first], self.faces[near[row, first]]
+        rivals = (self.faces[near] != owner[:, None]) & (
+            gaps - self.radii[near] <= bound[:, None]
+        )
+        certain = ~rivals.any(axis=1)
+        if count < len(self.faces):
+            certain &= gaps[:, -1] - self.radii.max() > bound
+        return np.where(certain, owner, SEVERAL)
+
+
+def _edge_balls(boundary: RegionBoundary, carrier: int) -> _EdgeBalls:
+    on_carrier = [
+        (edge, face)
+        for edge in boundary.edges
+        for face in edge.faces
+        if boundary.faces[face].carrier == carrier
+    ]
+    chord = min(edge.length for edge, _ in on_carrier) / 16
+    centres, radii, faces = [], [], []
+    for edge, face in on_carrier:
+        count = int(np.clip(edge.length / chord, 32, 1024))
+        points = edge.curve.point(np.linspace(edge.start, edge.end, count + 1))
+        centres.append((points[1:] + points[:-1]) / 2)
+        radii.append(0.75 * np.linalg.norm(np.diff(points, axis=0), axis=1))
+        faces.append(np.full(count, face))
+    tree = cKDTree(np.concatenate(centres))
+    return _EdgeBalls(tree, np.concatenate(radii), np.concatenate(faces))
 
 
 def leaf_balls(occupancy: OccupancyTree) -> Array:

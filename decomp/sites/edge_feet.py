@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from math import atan2, cos, inf, pi, sin, sqrt
 
-from decomp.sites.carrier_kernels import CarrierTable, Triple, normal, signed_distance
-from decomp.sites.compiled import scalar
+from decomp.sites.carrier_kernels import TINY, CarrierTable, Triple, normal, signed_distance
+from decomp.sites.compiled import inlined, scalar
 from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
 SINGULAR = 1e-6
+WHOLE_TURN = 2 * pi * (1 - 1e-12)
 
 
 @scalar
@@ -44,18 +45,34 @@ def arc_foot(
     vx, vy, vz = x - data[e, 0], y - data[e, 1], z - data[e, 2]
     u = vx * data[e, 3] + vy * data[e, 4] + vz * data[e, 5]
     v = vx * data[e, 6] + vy * data[e, 7] + vz * data[e, 8]
-    start, end = data[e, 10], data[e, 11]
-    past, beyond = (atan2(v, u) - start) % (2 * pi), 0.0
-    if past > end - start:
-        beyond = min(2 * pi - past, past - (end - start))
-        past = 0.0 if 2 * pi - past == beyond else end - start
-    u, v = data[e, 9] * cos(start + past), data[e, 9] * sin(start + past)
+    start, span, beyond = data[e, 10], data[e, 11] - data[e, 10], 0.0
+    rho = sqrt(u * u + v * v)
+    if span < WHOLE_TURN or rho <= TINY:
+        past = (atan2(v, u) - start) % (2 * pi)
+        if past > span:
+            beyond = min(2 * pi - past, past - span)
+            past = 0.0 if 2 * pi - past == beyond else span
+        u, v, rho = cos(start + past), sin(start + past), 1.0
+    u, v = data[e, 9] * (u / rho), data[e, 9] * (v / rho)
     return (
         data[e, 0] + u * data[e, 3] + v * data[e, 6],
         data[e, 1] + u * data[e, 4] + v * data[e, 7],
         data[e, 2] + u * data[e, 5] + v * data[e, 8],
         beyond,
     )
+
+
+@inlined
+def circle_distance(data: Array, e: int, x: float, y: float, z: float) -> float:
+    """Distance to the whole circle of an arc."""
+    vx, vy, vz = x - data[e, 0], y - data[e, 1], z - data[e, 2]
+    u = vx * data[e, 3] + vy * data[e, 4] + vz * data[e, 5]
+    v = vx * data[e, 6] + vy * data[e, 7] + vz * data[e, 8]
+    wx = vx - u * data[e, 3] - v * data[e, 6]
+    wy = vy - u * data[e, 4] - v * data[e, 7]
+    wz = vz - u * data[e, 5] - v * data[e, 8]
+    out = sqrt(u * u + v * v) - data[e, 9]
+    return sqrt(out * out + wx * wx + wy * wy + wz * wz)
 
 
 @scalar

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.errors import InputError
+from decomp.errors import GeometryError, InputError
 from decomp.sites.box_tree import BoxTree, box_tree
 from decomp.sites.candidates import CandidateTree, candidate_tree
 from decomp.sites.crowded import FaceFinder, FaceLookup
@@ -172,6 +172,9 @@ class SiteIndex:
         )
         here = np.flatnonzero(labels == label)
         found, slots = found[here], slots[here]
+        if (found < 0).any():
+            lost = points[here[found < 0][0]]
+            raise GeometryError(f"no boundary of region {label} found from {lost.tolist()}")
         site = part.sites.site_of[found]
         faces = len(part.boundary.faces)
         crowded = np.zeros(len(here), dtype=np.bool_)

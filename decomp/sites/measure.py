@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from decomp.sites.carrier_kernels import foot, signed_distance
 from decomp.sites.compiled import inlined, scalar
+from decomp.sites.edge_feet import ARC, circle_distance
 from decomp.sites.occupancy import NOWHERE, OccupancyTree, on_boundary
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_boxes import box_distance
@@ -67,6 +68,9 @@ def better_inlined(
         return Hit(k, away, min(away, hit.least), qx, qy, qz, slot)
     if k < faces + edges:
         if box_distance(sites.boxes, k, x, y, z) > limit:
+            return hit
+        e = k - faces
+        if sites.kinds[e] == ARC and circle_distance(sites.data, e, x, y, z) > limit:
             return hit
         rounding = occupancy.rounding
         own, qx, qy, qz = edge_foot(sites, occupancy.table, k - faces, x, y, z, rounding)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 
 import numpy as np
 import pytest
+from hypothesis import given, reject, settings
 from scipy.spatial import cKDTree
 
 import decomp
 from decomp.csg.primitives import Block, Cylinder, Sphere
 from decomp.csg.solid import Solid
-from decomp.errors import InputError
+from decomp.errors import GeometryError, InputError
 from decomp.geometry import Geometry
 from decomp.similarity import rotation
 from decomp.sites import SiteKind
 from decomp.vectors import Array, norm
+from tests.sites.random_solids import solids
 from tests.sites.reference import boundary_samples, labels, nearest_distance
 from tests.solids import SOLIDS
 
@@ -61,6 +64,23 @@ def test_nearest_equals_brute_force(name: str) -> None:
         np.testing.assert_allclose(found.distance[mine], slow, atol=1e-10 * size)
         samples = boundary_samples(form, label, boundary.bounds, 1000, rng)
         assert (cKDTree(samples).query(points[mine])[0] >= found.distance[mine] - 1e-11).all()
+
+
+@settings(max_examples=15, deadline=None)
+@given(solids)
+def test_nearest_equals_brute_force_on_random_solids(solid: Solid) -> None:
+    try:
+        part = decomp.Geometry(solid)
+    except GeometryError:  # empty, or touches itself
+        reject()
+    form = part.boundaries.form
+    points = cloud(part, 200)
+    found = part.nearest(points)
+    np.testing.assert_array_equal(found.region, labels(form, points))
+    for label in (-1, 0):
+        mine = found.region == label
+        slow = nearest_distance(form, part.index.boundary(label), label, points[mine])
+        np.testing.assert_allclose(found.distance[mine], slow, atol=1e-9 * part.diagonal)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -158,6 +178,16 @@ def test_a_reentrant_vertex_wins_beyond_its_edges() -> None:
     np.testing.assert_allclose(found.distance, 0.1 * np.sqrt([3.0, 2, 1]), rtol=1e-14)
 
 
+def test_points_on_a_skew_axis() -> None:
+    base, along = np.array([0.3, -0.2, 0.1]), np.array([1.0, 2, 2])
+    part = decomp.Geometry(Cylinder(base, base + 2 * along, 0.7, name="bar"))
+    points = base + np.outer([0.5, 0.7, 1.1, 1.3], along)
+    found = part.nearest(points)
+    np.testing.assert_allclose(found.distance, 0.7, rtol=1e-14)
+    np.testing.assert_allclose(norm(points - found.foot), 0.7, rtol=1e-14)
+    assert {part.sites[k].name for k in found.site} == {"bar.side"}
+
+
 def test_one_point_and_none() -> None:
     part = geometry("bracket")
     assert part.nearest([[0.5, 0.5, 1.0]]).foot.shape == (1, 3)
@@ -201,3 +231,14 @@ def test_points_are_left_alone() -> None:
     points = cloud(part, 100)
     points.setflags(write=False)
     assert part.nearest(points).foot.shape == (100, 3)
+
+
+def test_threads_do_not_disturb_each_other() -> None:
+    part = geometry("plates")
+    clouds = [cloud(part, 20_000, seed) for seed in range(8)]
+    alone = [part.nearest(points) for points in clouds]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(part.nearest, clouds))
+    for a, b in zip(alone, together, strict=True):
+        np.testing.assert_array_equal(a.site, b.site)
+        np.testing.assert_array_equal(a.foot, b.foot)

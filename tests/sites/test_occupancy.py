@@ -9,38 +9,13 @@ from hypothesis import strategies as st
 
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import model
-from decomp.csg.primitives import Block, Cone, Cylinder, HalfSpace, Sphere, Torus
+from decomp.csg.primitives import HalfSpace, Sphere
 from decomp.csg.solid import Solid, intersection
 from decomp.sites.occupancy import NOWHERE, labels_of, occupancy_tree, on_boundary, private
+from tests.sites.random_solids import trees
 from tests.sites.reference import accepted, clear_of, labels
 
 BOX = np.array([[-3.0, -3, -3], [3, 3, 3]])
-
-# few different numbers, so that faces coincide, surfaces touch and many meet in a point
-places = st.tuples(*[st.integers(-2, 2)] * 3)
-sizes = st.sampled_from([0.5, 1.0, 2.0])
-axes = st.sampled_from([(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, -1), (1, 1, 0), (1, 2, 2)])
-leaves = st.one_of(
-    st.builds(Block, places, st.tuples(sizes, sizes, sizes)),
-    st.builds(Sphere, places, sizes),
-    st.builds(lambda p, d, r: Cylinder(p, np.add(p, d), r), places, axes, sizes),
-    st.builds(lambda p, d, r: Cone(p, r, np.add(p, d), 0.25), places, axes, sizes),
-    st.builds(lambda p, d: Torus(p, d, 1.5, 0.5), places, axes),
-    st.builds(HalfSpace, places, axes),
-)
-
-
-def combined(parts: st.SearchStrategy[Solid]) -> st.SearchStrategy[Solid]:
-    pairs = st.tuples(parts, parts)
-    return st.one_of(
-        pairs.map(lambda p: p[0] | p[1]),
-        pairs.map(lambda p: p[0] & p[1]),
-        pairs.map(lambda p: p[0] - p[1]),
-        parts.map(lambda p: ~p),
-    )
-
-
-trees = st.recursive(leaves, combined, max_leaves=10)
 
 
 def check(form: HalfSpaceForm, seed: int, box: np.ndarray = BOX) -> None:
