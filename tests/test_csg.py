@@ -21,6 +21,7 @@ from decomp import (
     Solid,
     Sphere,
     Torus,
+    carriers,
     union,
 )
 from decomp.csg.halfspaces import half_space_form
@@ -137,6 +138,29 @@ def test_bounds_are_exact() -> None:
     reach = 2 * np.sqrt(1 - axis**2) + 0.5
     assert np.allclose(low, np.array([1, 2, 3]) - reach, atol=1e-12)
     assert np.allclose(high, np.array([1, 2, 3]) + reach, atol=1e-12)
+
+
+def test_a_cone_reaches_to_its_apex() -> None:
+    low, high = Geometry(Cone((0, 0, 0), 1, (0, 0, 2))).regions[0].bounds
+    assert np.allclose(low, [-1, -1, 0])
+    assert np.allclose(high, [1, 1, 2])
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "cone", "torus"])
+def test_feet_of_points_on_a_skew_axis_lie_on_the_carrier(kind: str) -> None:
+    """There the direction away from the axis is rounding error."""
+    axis = np.array([1.0, 2.0, -0.7]) / np.sqrt(5.49)
+    start = np.array([0.3, -0.2, 0.1])
+    carrier = {
+        "cylinder": carriers.Cylinder(start, axis, 0.4),
+        "cone": carriers.Cone(start, axis, 0.3),
+        "torus": carriers.Torus(start, axis, 1.0, 0.4),
+    }[kind]
+    points = start + np.linspace(0.1, 3, 200)[:, None] * axis
+    feet = carrier.foot(points)
+    assert np.abs(carrier.signed_distance(feet)).max() <= 1e-14
+    gaps = np.linalg.norm(points - feet, axis=1) - np.abs(carrier.signed_distance(points))
+    assert np.abs(gaps).max() <= 1e-14
 
 
 DEEP = 10_000

@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.boundary.faces import RawFace
 from decomp.boundary.member import Member
-from decomp.boundary.topology import Edge
+from decomp.boundary.topology import Edge, Vertex
 from decomp.carriers import Carrier, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves.circle import Circle
@@ -21,15 +21,20 @@ TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 
 
 def region_bounds(
-    form: HalfSpaceForm, member: Member, faces: Sequence[RawFace], edges: Sequence[Edge]
+    form: HalfSpaceForm,
+    member: Member,
+    faces: Sequence[RawFace],
+    edges: Sequence[Edge],
+    vertices: Sequence[Vertex],
 ) -> Array:
     """Corners (2, 3) of the box.
 
-    A coordinate is extreme on an edge, or inside a face where its normal is an axis of the box,
+    A coordinate is extreme on an edge, at a cone's apex, or inside a face where its normal is an axis of the box,
     which happens on spheres and tori only (on planes, cylinders and cones such points come in
     lines, which end at an edge).
     """
     points = [edge.samples for edge in edges]
+    points += [vertex.point[None] for vertex in vertices]
     points += [
         _conic_extremes(edge, edge.curve)
         for edge in edges

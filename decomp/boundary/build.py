@@ -210,7 +210,7 @@ def _boundary(
         abs(volume - sum(i.flux for i in coarse) / 3) + rounding,
         area,
         sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
-        region_bounds(form, member, raw, finished),
+        region_bounds(form, member, raw, finished, vertices),
         _euler(form, edges, points, raw),
     )
 

@@ -48,17 +48,25 @@ def face_names(
 def _owner(
     owners: Sequence[tuple[str, Placed]], carrier: int, points: Array, member: Member
 ) -> tuple[str, Options]:
+    distances = member.form.signed_distances(points)
     for name, placed in owners:
-        if _on_primitive(placed, carrier, points, member):
+        if _on_primitive(placed, carrier, distances, member.form.tolerance):
             return name, placed.options
     return owners[0][0], owners[0][1].options
 
 
-def _on_primitive(placed: Placed, carrier: int, points: Array, member: Member) -> bool:
-    """Whether any of the points on a carrier lies on the primitive's own boundary."""
-    on = np.ones(len(points), dtype=np.bool_)
+def _on_primitive(placed: Placed, carrier: int, distances: Array, tolerance: float) -> bool:
+    """Whether any of some points on a carrier lies on the primitive's own boundary.
+
+    Args:
+        placed: the primitive.
+        carrier: index of the carrier.
+        distances: signed distances (k, n_carriers) of the points.
+        tolerance: how far outside the primitive a point may be.
+    """
+    on = np.ones(len(distances), dtype=np.bool_)
     for side in placed.sides:
         if side.carrier != carrier:
-            distance = member.form.carriers[side.carrier].signed_distance(points)
-            on &= (distance if side.inside else -distance) < member.form.tolerance
+            distance = distances[:, side.carrier]
+            on &= (distance if side.inside else -distance) < tolerance
     return bool(on.any())

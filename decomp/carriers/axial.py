@@ -15,6 +15,8 @@ def axial_split(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Arra
     away = p - point
     z = dot(away, axis)
     radial = away - z[..., None] * axis
+    # close to the axis what is left is rounding error, which must at least be across it
+    radial = radial - dot(radial, axis)[..., None] * axis
     rho = norm(radial)
     clear = rho > 1e-300
     if clear.all():
