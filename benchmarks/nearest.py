@@ -95,9 +95,7 @@ def mesh_of_manyholes() -> tuple[Any, Any]:
             outermost = (np.abs(middle - HOLES / 2) > HOLES / 2 - 1e-9).any(axis=1)
             triangles.append(np.concatenate([cell, rim[outermost]]) + len(flat) * len(vertices))
             vertices.append(here)
-    points, numbers = np.unique(
-        np.round(np.concatenate(vertices), 12), axis=0, return_inverse=True
-    )
+    points, numbers = np.unique(np.round(np.concatenate(vertices), 12), axis=0, return_inverse=True)
     return points, numbers.ravel()[np.concatenate(triangles)]
 
 
@@ -154,8 +152,16 @@ def main() -> int:
 
     table = Table(title=f"nearest, {arguments.points:,} points, one core")
     for heading in (
-        "solid", "carriers", "build s", "points/s", "goal", "triangles", "libigl points/s",
-        "ratio", "max deviation", f"peak MB at {arguments.large:,}",
+        "solid",
+        "carriers",
+        "build s",
+        "points/s",
+        "goal",
+        "triangles",
+        "libigl points/s",
+        "ratio",
+        "max deviation",
+        f"peak MB at {arguments.large:,}",
     ):
         table.add_column(heading, justify="right")
     missed = False
@@ -177,9 +183,15 @@ def main() -> int:
         peak = memory_of(name, arguments.large)
         missed |= rate < GOALS[name] or peak > GIGABYTE
         table.add_row(
-            name, str(len(part.boundaries.form.carriers)), f"{build:.2f}", f"{rate:,.0f}",
-            f"{GOALS[name]:,.0f}", f"{len(triangles):,}", f"{other:,.0f}",
-            f"{rate / other:.1f}", f"{np.abs(signed - facets).max():.1e}",
+            name,
+            str(len(part.boundaries.form.carriers)),
+            f"{build:.2f}",
+            f"{rate:,.0f}",
+            f"{GOALS[name]:,.0f}",
+            f"{len(triangles):,}",
+            f"{other:,.0f}",
+            f"{rate / other:.1f}",
+            f"{np.abs(signed - facets).max():.1e}",
             f"{peak / 1e6:,.0f}",
         )
     Console(width=150).print(table)

@@ -29,9 +29,9 @@ def region_bounds(
 ) -> Array:
     """Corners (2, 3) of the box.
 
-    A coordinate is extreme on an edge, at a cone's apex, or inside a face where its normal is an axis of the box,
-    which happens on spheres and tori only (on planes, cylinders and cones such points come in
-    lines, which end at an edge).
+    A coordinate is extreme on an edge, at a cone's apex, or inside a face where its normal is an
+    axis of the box, which happens on spheres and tori only (on planes, cylinders and cones such
+    points come in lines, which end at an edge).
     """
     points = [edge.samples for edge in edges]
     points += [vertex.point[None] for vertex in vertices]

@@ -163,9 +163,7 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
 
 
 @scalar
-def foot_spread(
-    table: CarrierTable, c: int, x: float, y: float, z: float, radius: float
-) -> float:
+def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radius: float) -> float:
     """How far from the foot of a point the feet of points within `radius` of it can be.
 
     Projection to a convex body does not spread feet. From inside a circle of radius r, at distance

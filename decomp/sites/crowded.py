@@ -91,9 +91,7 @@ class _EdgeBalls:
         reach = gaps + self.radii[near]
         row, first = np.arange(len(points)), reach.argmin(axis=1)
         bound, owner = reach[row, first], self.faces[near[row, first]]
-        rivals = (self.faces[near] != owner[:, None]) & (
-            gaps - self.radii[near] <= bound[:, None]
-        )
+        rivals = (self.faces[near] != owner[:, None]) & (gaps - self.radii[near] <= bound[:, None])
         certain = ~rivals.any(axis=1)
         if count < len(self.faces):
             certain &= gaps[:, -1] - self.radii.max() > bound

@@ -103,4 +103,3 @@ def better(
 def count_of(sites: SiteTable) -> int:
     """Number of candidates."""
     return len(sites.face_carriers) + len(sites.kinds) + len(sites.vertices)
-

@@ -72,9 +72,7 @@ def occupancy_tree(form: HalfSpaceForm, bounds: Array) -> OccupancyTree:
     grid = grid_over(bounds)
     centres = root_centres(grid)
     half = grid.size / 2
-    cells = root_cells(
-        table, programs_of(form.program), centres, circumradius(half, 4 * rounding)
-    )
+    cells = root_cells(table, programs_of(form.program), centres, circumradius(half, 4 * rounding))
     links: list[Links] = []
     parts = [shared_leaves(len(form.program.roots))]
     made, leaves = 0, len(parts[0].whole)

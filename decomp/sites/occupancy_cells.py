@@ -62,9 +62,7 @@ def restrict_to_ball(
 
 
 @kernel
-def root_cells(
-    table: CarrierTable, program: Programs, centres: Array, radius: float
-) -> Cells:
+def root_cells(table: CarrierTable, program: Programs, centres: Array, radius: float) -> Cells:
     """The cells of the grid itself."""
     nodes, operands, only = len(program.literal), len(program.operands), len(program.nodes) - 2
     out = empty_programs(len(centres), nodes, operands, program.roots.shape[1])

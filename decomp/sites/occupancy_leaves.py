@@ -71,9 +71,7 @@ def constant_label(values: Words) -> int:
 
 
 @scalar
-def truth_words(
-    programs: Programs, k: int, variable: Ints, words: Words, values: Words
-) -> None:
+def truth_words(programs: Programs, k: int, variable: Ints, words: Words, values: Words) -> None:
     """Evaluate program k; variable[i] is that of its i-th literal, -1 to hold it at "outside"."""
     first, seen = programs.nodes[k], 0
     for node in range(programs.nodes[k + 1] - first):
@@ -84,9 +82,7 @@ def truth_words(
 
 
 @scalar
-def choose_variables(
-    programs: Programs, k: int, variable: Ints, room: Words, values: Words
-) -> int:
+def choose_variables(programs: Programs, k: int, variable: Ints, room: Words, values: Words) -> int:
     """Number those literals of program k that it depends on, and evaluate it.
 
     Args:
@@ -200,9 +196,7 @@ def joined(parts: list[Leaves]) -> Leaves:
     shift = np.cumsum([0] + [len(p.nodes) - 1 for p in used])
     return Leaves(
         _chained([part.first_carrier for part in parts]).astype(np.int32),
-        np.concatenate(
-            [part.carriers[: part.first_carrier[-1]] for part in parts], dtype=np.int32
-        ),
+        np.concatenate([part.carriers[: part.first_carrier[-1]] for part in parts], dtype=np.int32),
         _chained([part.first_word for part in parts]).astype(np.int32),
         np.concatenate([part.labels[: part.first_word[-1]] for part in parts], dtype=np.int32),
         np.concatenate([part.words[: part.first_word[-1]] for part in parts]),
@@ -214,8 +208,10 @@ def joined(parts: list[Leaves]) -> Leaves:
             _chained([p.nodes for p in used]),
             np.concatenate([p.literal for p in used]),
             np.concatenate(
-                [p.start + s for p, s in zip(used, _starts([len(p.operands) for p in used]),
-                                             strict=False)]
+                [
+                    p.start + s
+                    for p, s in zip(used, _starts([len(p.operands) for p in used]), strict=False)
+                ]
             ),
             np.concatenate([p.operands for p in used]),
             np.concatenate([p.roots for p in used]),

@@ -165,8 +165,6 @@ def empty_programs(programs: int, nodes: int, operands: int, roots: int) -> Prog
     )
 
 
-
-
 @scalar
 def copy(source: Ints, target: Ints, count: int) -> None:
     """Copy the first entries of an array."""

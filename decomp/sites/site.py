@@ -40,14 +40,9 @@ def sites_of(boundary: RegionBoundary, region: int, sites: RegionSites) -> tuple
     def joined(faces: tuple[int, ...]) -> str:
         return "|".join(boundary.faces[f].name for f in faces)
 
-    faces = [
-        Site(region, SiteKind.FACE, k, face.name) for k, face in enumerate(boundary.faces)
-    ]
-    edges = [
-        Site(region, SiteKind.EDGE, k, joined(boundary.edges[k].faces)) for k in sites.edges
-    ]
+    faces = [Site(region, SiteKind.FACE, k, face.name) for k, face in enumerate(boundary.faces)]
+    edges = [Site(region, SiteKind.EDGE, k, joined(boundary.edges[k].faces)) for k in sites.edges]
     vertices = [
-        Site(region, SiteKind.VERTEX, k, joined(boundary.vertices[k].faces))
-        for k in sites.vertices
+        Site(region, SiteKind.VERTEX, k, joined(boundary.vertices[k].faces)) for k in sites.vertices
     ]
     return (*faces, *edges, *vertices)

@@ -146,15 +146,14 @@ class _Pieces:
             for first in range(0, len(samples) - 1, PIECE):
                 last = min(first + PIECE, len(samples) - 1)
                 a, b = edge.carriers
-                gap = max(
-                    chord_gap(self._carriers, a, b, samples, i) for i in range(first, last)
-                )
+                gap = max(chord_gap(self._carriers, a, b, samples, i) for i in range(first, last))
                 part = samples[first : last + 1]
                 box = np.concatenate([part.min(axis=0) - gap, part.max(axis=0) + gap])
                 span = (self._count + first, self._count + last)
                 self._row(SAMPLED, np.zeros(12), edge, span, gap, box, site)
                 self.ended[-1] = (
-                    start_is_site and first == 0, end_is_site and last == len(samples) - 1
+                    start_is_site and first == 0,
+                    end_is_site and last == len(samples) - 1,
                 )
             self._count += len(samples)
 
