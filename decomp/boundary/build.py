@@ -25,7 +25,7 @@ from decomp.carriers import Cone, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import Model
 from decomp.errors import EmptyRegionError, UnboundedRegionError
-from decomp.vectors import Array, Ints, norm
+from decomp.vectors import Array, Ints, frame, norm
 
 WINDOWS = (2.0, 2e4)
 """Radii, in units of the estimated scale, within which a model is looked for."""
@@ -222,9 +222,9 @@ def _poles(
     sets: Sequence[LoopSet],
     reach: float,
 ) -> dict[tuple[int, int], Array]:
-    """For each sphere with edges a direction that none of its faces covers."""
+    """For each sphere with edges the direction from its centre that keeps farthest from them."""
     return {
-        (s.carrier, s.outward): Walker(member, edges, s, reach).pole
+        (s.carrier, s.outward): Walker(member, edges, s, reach).clearest_direction
         for s in sets
         if isinstance(form.carriers[s.carrier], Sphere)
     }
@@ -307,13 +307,24 @@ def _apexes(
             continue
         if len(points) and norm(points - cone.apex).min() <= 10 * form.tolerance:
             continue
+        ring = _around_apex(cone, 1e-5 * form.scale)
         for outward in (1, -1):
-            if bool(member.is_face(index, outward, cone.apex)):
+            if member.is_face(index, outward, ring).all():
                 here = [k for k, f in enumerate(raw) if (f.carrier, f.outward) == (index, outward)]
                 convexity = Convexity.CONVEX if outward > 0 else Convexity.REENTRANT
                 face = _apex_face(here, raw, cone, member)
                 result.append(Vertex(cone.apex, (face,), (), convexity))
     return tuple(result)
+
+
+def _around_apex(cone: Cone, step: float) -> Array:
+    """Points of a cone a step down its rulings: at the apex itself other carriers may meet."""
+    x, y = frame(cone.axis)
+    angles = np.linspace(0.3, 0.3 + 2 * np.pi, 12, endpoint=False)[:, None]
+    side = np.cos(angles) * x + np.sin(angles) * y
+    return np.asarray(
+        cone.apex + step * (np.cos(cone.angle) * cone.axis + np.sin(cone.angle) * side)
+    )
 
 
 def _apex_face(here: Sequence[int], raw: Sequence[RawFace], cone: Cone, member: Member) -> int:

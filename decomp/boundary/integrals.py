@@ -8,8 +8,8 @@ the left as -integral of W(v) du. The volume follows from the divergence theorem
     plane     area = 1/2 integral of n . p x dp
     cylinder  u = angle, v = z          W = r z
     cone      u = angle, v = slant s    W = s^2 sin(angle) / 2
-    sphere    u = longitude, v = latitude, W = r^2 (1 + sin v); the pole where this is singular
-              lies outside every face
+    sphere    u = longitude, v = latitude, W = r^2 (1 + sin v); if the pole where this is
+              singular lies inside the face, the result is short by the whole sphere's area
     torus     u = around, v = tube      W = r (R v + r sin v), v unwrapped
 
 On a torus v is known up to full turns only, so the area is known up to multiples of the whole
@@ -95,7 +95,7 @@ def face_integrals(
         edges: the region's edges.
         track_of: quadrature of an edge by index.
         origin: (3,) reference point of the flux.
-        pole: on a sphere with edges, a unit direction outside the face.
+        pole: on a sphere with edges, a unit direction away from them.
     """
     sign = float(face.outward)
     signed = [(sign * half.direction, track_of(half.edge)) for loop in face.loops for half in loop]
@@ -114,9 +114,11 @@ def face_integrals(
             area = -sum(s * _cone_term(carrier, t) for s, t in signed)
             flux = float((carrier.apex - origin) @ vector_area)
         case Sphere():
-            area = 4 * np.pi * carrier.radius**2
+            whole = 4 * np.pi * carrier.radius**2
+            area = whole
             if pole is not None:
                 area = -sum(s * _sphere_term(carrier, t, pole) for s, t in signed)
+                area += whole if area <= 0 else 0.0  # then the pole is inside the face
             flux = float((carrier.centre - origin) @ vector_area) + carrier.radius * area
         case Torus():
             area, cosine = _torus_integrals(face, carrier, edges, signed)

@@ -62,6 +62,16 @@ class Walker:
         return result
 
     @cached_property
+    def clearest_direction(self) -> Array:
+        """On a sphere: the unit direction from its centre that is farthest from all edges."""
+        sphere = self.member.form.carriers[self.loops.carrier]
+        assert isinstance(sphere, Sphere)
+        directions = _spread_directions(1000)
+        edge_points = self._edge_points() - sphere.centre
+        nearest = (directions @ edge_points.T).max(axis=1)
+        return np.asarray(directions[int(np.argmin(nearest))])
+
+    @cached_property
     def pole(self) -> Array:
         """On a sphere: the unit direction of the point farthest from all faces of the set."""
         sphere = self.member.form.carriers[self.loops.carrier]

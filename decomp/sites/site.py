@@ -38,7 +38,7 @@ def sites_of(boundary: RegionBoundary, region: int, sites: RegionSites) -> tuple
     """A region's sites, in the order of their numbers."""
 
     def joined(faces: tuple[int, ...]) -> str:
-        return "|".join(boundary.faces[f].name for f in faces)
+        return "|".join(sorted(boundary.faces[f].name for f in faces))
 
     faces = [Site(region, SiteKind.FACE, k, face.name) for k, face in enumerate(boundary.faces)]
     edges = [Site(region, SiteKind.EDGE, k, joined(boundary.edges[k].faces)) for k in sites.edges]

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, Phase, settings
 
 FACTOR = float(os.environ.get("LAWS", "1"))
 """The environment variable LAWS multiplies the number of examples and makes them random."""
@@ -20,5 +20,6 @@ def examples(count: int) -> Callable[[Any], Any]:
         derandomize=FACTOR == 1,
         database=None,
         print_blob=False,
+        phases=(Phase.generate, Phase.shrink),
         suppress_health_check=list(HealthCheck),
     )
