@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -129,9 +129,14 @@ def _groups(walker: Walker) -> list[list[int]]:
 
     if count > 1:
         carrier = walker.member.form.carriers[walker.loops.carrier]
+        apart = count
         for index, loop in enumerate(walker.loops.loops):
             for other in _reached_from(walker, carrier, loop):
-                parent[root(index)] = root(other)
+                if root(index) != root(other):
+                    parent[root(index)] = root(other)
+                    apart -= 1
+                if apart == 1:
+                    break
         if isinstance(carrier, Torus):
             _join_outer_torus_loops(walker, parent, root)
     groups: dict[int, list[int]] = {}
@@ -140,7 +145,7 @@ def _groups(walker: Walker) -> list[list[int]]:
     return list(groups.values())
 
 
-def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) -> list[int]:
+def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) -> Iterator[int]:
     """Loops of the same face that rays from a loop arrive at.
 
     From a hole's highest point the way up lies in the face and meets a loop that reaches higher,
@@ -150,13 +155,14 @@ def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) ->
     samples = np.concatenate([walker.edges[half.edge].sampled(67)[1:-1] for half in loop])
     if isinstance(carrier, Torus):
         starts = samples[:: max(1, len(samples) // RAYS_PER_LOOP)]
-        rays = [ray for start in starts for ray in walker.around_torus(start)]
+        rays = (ray for start in starts for ray in walker.around_torus(start))
     else:
-        highest = int(np.argmax(walker.height(samples)))
-        ray = walker.upward(samples[highest])
-        rays = [] if ray is None else [ray]
-    found = (walker.first_loop(ray, from_edge=True) for ray in rays)
-    return [loop for loop in found if loop is not None]
+        upward = walker.upward(samples[int(np.argmax(walker.height(samples)))])
+        rays = (ray for ray in (upward,) if ray is not None)
+    for ray in rays:
+        reached = walker.first_loop(ray, from_edge=True)
+        if reached is not None:
+            yield reached
 
 
 def _loop_reached(walker: Walker, point: Array) -> int | None:

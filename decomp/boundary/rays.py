@@ -19,7 +19,7 @@ from decomp.boundary.member import Member
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.csg.extents import overlap
-from decomp.curves import crossings
+from decomp.curves import crossing_candidates, crossings
 from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
@@ -185,9 +185,10 @@ class Walker:
             near = self.crossing_carriers[overlap(form.carrier_boxes[self.crossing_carriers], path)]
             met = line_crossings(ray, form.table, near, form.tolerance)
             return list(zip(met.parameters.tolist(), met.carriers.tolist(), strict=True))
+        near = np.intersect1d(self.crossing_carriers, crossing_candidates(ray, form.table))
         return [
             (float(t), int(k))
-            for k in self.crossing_carriers
+            for k in near
             for t in crossings(ray, form.carriers[k], form.tolerance).parameters
         ]
 
