@@ -9,9 +9,8 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import CarrierTable, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.curves import (
-    CarrierTable,
     Circle,
     Ellipse,
     Hyperbola,
