@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import FrozenInstanceError
 from math import inf, nan, pi
 
 import numpy as np
@@ -129,6 +130,13 @@ def test_ways_to_say_the_same_agree(solid: Solid) -> None:
     assert region.volume == pytest.approx(2 * pi)
     assert region.area == pytest.approx(6 * pi)
     assert len(region.faces) == 3
+
+
+def test_primitives_cannot_be_changed() -> None:
+    with pytest.raises(FrozenInstanceError):
+        Sphere((0, 0, 0), 1).radius = 2  # type: ignore[misc]
+    with pytest.raises(ValueError, match="read-only"):
+        Sphere((0, 0, 0), 1).centre[0] = 2
 
 
 def test_bounds_are_exact() -> None:

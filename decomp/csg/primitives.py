@@ -43,6 +43,7 @@ class Primitive(Solid):
         return f"{type(self).__name__}({', '.join(values)})"
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Block(Primitive):
     """The axis-parallel block between two opposite corners.
 
@@ -78,6 +79,7 @@ class Block(Primitive):
         return np.array([self.corner, self.corner + self.size])
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Sphere(Primitive):
     """The ball about `centre`. Face: `surface`."""
 
@@ -100,6 +102,7 @@ class Sphere(Primitive):
         return np.array([self.centre - self.radius, self.centre + self.radius])
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Cylinder(Primitive):
     """The circular cylinder with flat ends at `base` and `top`, the ends of its axis.
 
@@ -135,6 +138,7 @@ class Cylinder(Primitive):
         return _around([self.base, self.top], [reach, reach])
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Cone(Primitive):
     """The circular cone or frustum between `base` and `top`, the ends of its axis.
 
@@ -183,6 +187,7 @@ class Cone(Primitive):
         return _around([self.base, self.top], [self.base_radius * side, self.top_radius * side])
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Torus(Primitive):
     """The ring torus: a circle of radius `minor` turned about `axis` at distance `major`.
 
@@ -230,6 +235,7 @@ class Torus(Primitive):
         return np.array([self.centre - reach, self.centre + reach])
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class HalfSpace(Primitive):
     """All points behind the plane through `point` with the given outward normal.
 
@@ -252,6 +258,7 @@ class HalfSpace(Primitive):
         yield "", carriers.Plane(self.point, self.normal)
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class InfiniteCylinder(Primitive):
     """All points within `radius` of the line through `point` along `axis`. Face: `side`."""
 
@@ -275,6 +282,7 @@ class InfiniteCylinder(Primitive):
         yield "side", carriers.Cylinder(self.point, self.axis, self.radius)
 
 
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class InfiniteCone(Primitive):
     """One nappe of a cone, from `apex` along `axis`, half-angle in degrees. Face: `side`."""
 
