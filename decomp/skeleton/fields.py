@@ -103,8 +103,9 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
         bend = _bending(a, b, foot, tangent)
         stretch = 1 - dot(points - foot, bend)
         rows = np.stack([na, nb, tangent * stretch[:, None]], axis=1)
+        # the pseudo-inverse, as the carriers may touch at the curve's ends
         right = np.stack(residual, axis=1)[..., None]
-        step = np.asarray(np.linalg.solve(rows, right)[..., 0], dtype=np.float64)
+        step = np.asarray((np.linalg.pinv(rows, rcond=1e-9) @ right)[..., 0], dtype=np.float64)
         foot = np.asarray(foot + step, dtype=np.float64)
         if norm(step).max(initial=0.0) <= 1e-15 * (1 + np.abs(foot).max(initial=0.0)):
             break
@@ -120,5 +121,5 @@ def _bending(a: Carrier, b: Carrier, foot: Array, tangent: Array) -> Array:
     ha = -a.normal_curvature(foot, tangent)
     hb = -b.normal_curvature(foot, tangent)
     c = dot(na, nb)
-    s2 = 1 - c**2
+    s2 = np.maximum(1 - c**2, 1e-12)
     return ((ha - c * hb) / s2)[:, None] * na + ((hb - c * ha) / s2)[:, None] * nb

@@ -9,7 +9,8 @@ that the face's maximal balls touch on their far side changes with a jump, a sea
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -183,9 +184,11 @@ class _Grower:
         last = traced.states[-1]
         if traced.end is SeamEnd.BOUNDARY:
             number = self._vertex_near(last)
+        elif traced.end is SeamEnd.SPLIT:
+            number = self._node_at(last.point)
         else:
             number = self._junction(last, traced.intruder)
-        self._take(number, -last.tangent)
+        self._take(number, -last.tangent, last.sites)
         return number
 
     def _vertex_near(self, last: State) -> int:
@@ -202,12 +205,41 @@ class _Grower:
         point = found.points[0]
         if float(norm(point - last.point)) > 1e-4 * self._size:
             point = last.point
+        return self._node_at(point)
+
+    def _node_at(self, point: Array) -> int:
+        """The node at a point, a new one unless it is known."""
         for number, node in enumerate(self.nodes):
             if float(norm(node.point - point)) <= 1e-7 * self._size:
                 return number
         touching = contacts(self._index, self._boundary, self._region, point, self._slack)
-        rays = tuple(seam_rays(touching.gradients))
-        return self._add(Node(point, touching.radius, touching.sites, touching.feet, rays))
+        rays = [
+            found
+            for ray in seam_rays(touching.gradients)
+            for found in self._resolved(point, touching.feet, ray, touching.radius)
+        ]
+        return self._add(Node(point, touching.radius, touching.sites, touching.feet, tuple(rays)))
+
+    def _resolved(self, point: Array, feet: Array, ray: SeamRay, radius: float) -> list[SeamRay]:
+        """The seams that truly leave along a ray with more than three contacts.
+
+        Either one seam with all these contacts does, or several leave in the same direction and
+        part farther on: then each set of fewer contacts is tried a step ahead.
+        """
+        if len(ray.contacts) == 3:
+            return [ray]
+        ahead = point + FIRST_STEP * min(self._size, 10 * radius) * ray.direction
+        found: list[SeamRay] = []
+        for count in range(len(ray.contacts), 2, -1):
+            for chosen in combinations(ray.contacts, count):
+                if any(set(chosen) <= set(known.contacts) for known in found):
+                    continue
+                try:
+                    self._tracer.settled(ahead, feet[list(chosen)], ray.direction)
+                except GeometryError:
+                    continue
+                found.append(replace(ray, contacts=chosen))
+        return found
 
     def _add(self, node: Node) -> int:
         self.nodes.append(node)
@@ -215,20 +247,21 @@ class _Grower:
         self._open.extend((number, k) for k in range(len(node.rays)))
         return number
 
-    def _take(self, number: int, direction: Array) -> None:
-        """Mark the ray of a node along which a seam has arrived."""
-        rays = self.nodes[number].rays
-        free = [k for k in range(len(rays)) if (number, k) not in self._taken]
-        if not free:
-            raise GeometryError(
-                f"more seams arrive at {place(self.nodes[number].point)} than leave it"
-            )
-        best = max(free, key=lambda k: float(rays[k].direction @ direction))
-        if float(rays[best].direction @ direction) < 0.9:
-            raise GeometryError(
-                f"a seam arrives at {place(self.nodes[number].point)} where none leaves"
-            )
-        self._taken.add((number, best))
+    def _take(self, number: int, direction: Array, sites: Sequence[int]) -> None:
+        """Mark the ray of a node along which a seam with some sites has arrived."""
+        node = self.nodes[number]
+        free = [k for k in range(len(node.rays)) if (number, k) not in self._taken]
+        fitting = [k for k in free if float(node.rays[k].direction @ direction) > 0.9]
+        if not fitting:
+            raise GeometryError(f"a seam arrives at {place(node.point)} where none leaves")
+
+        def fit(k: int) -> tuple[int, float]:
+            """How many contacts of a ray are the seam's own, then how well directions agree."""
+            ray = node.rays[k]
+            shared = sum(bool(set(node.sites[c]) & set(sites)) for c in ray.contacts)
+            return 2 * shared - len(ray.contacts), float(ray.direction @ direction)
+
+        self._taken.add((number, max(fitting, key=fit)))
 
     def _between(self, states: Sequence[State], ends: tuple[int, int]) -> Seam:
         """A seam with its nodes' points put at its ends."""

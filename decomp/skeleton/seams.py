@@ -30,9 +30,14 @@ MOST_STEPS = 5000
 
 
 class SeamEnd(Enum):
-    """How a seam ends: at a junction, at the boundary (radius zero), or in its own beginning."""
+    """How a seam ends.
+
+    At a junction, where another site is as near; at a split, where sites that were equally near
+    part tangentially; at the boundary, where its radius is zero; or in its own beginning.
+    """
 
     JUNCTION = "junction"
+    SPLIT = "split"
     BOUNDARY = "boundary"
     CLOSED = "closed"
 
@@ -109,6 +114,8 @@ class SeamTracer:
             if moved is None:
                 step /= 2
                 if step < SHORTEST * min(self._size, 1e3 * here.radius):
+                    if len(here.sites) > 3:
+                        return Traced(tuple(states), SeamEnd.SPLIT, -1)
                     raise GeometryError(f"a seam cannot be followed past {place(here.point)}")
                 continue
             check = self._check(moved)
