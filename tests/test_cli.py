@@ -56,7 +56,7 @@ def test_info_for_people(block: Path, capsys: pytest.CaptureFixture[str]) -> Non
 def test_info_as_json(block: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["info", str(block), "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
-    assert list(data) == ["model", "diagonal", "regions", "ignored"]
+    assert list(data) == ["model", "diagonal", "regions", "touching", "ignored"]
     region = data["regions"][0]
     assert region["name"] == "b"
     assert region["volume"] == pytest.approx(24)

@@ -164,6 +164,17 @@ def test_touching_regions_are_no_overlap() -> None:
     assert sum(region.volume for region in found.regions) == pytest.approx(8)
 
 
+def test_regions_know_which_others_they_touch() -> None:
+    ball = Sphere((0, 0, 0), 0.5)
+    beside = Block((1, -0.5, -0.5), (1, 1, 1))
+    apart = Block((3, 0, 0), (1, 1, 1))
+    at_an_edge = Block((1, 1, -1), (1, 1, 2))
+    found = Geometry(
+        {"cube": CUBE - ball, "core": ball, "beside": beside, "apart": apart, "edge": at_an_edge}
+    )
+    assert found.boundaries.touching == ((0, 1), (0, 2))
+
+
 @pytest.mark.parametrize(
     ("first", "second"),
     [

@@ -20,6 +20,7 @@ from decomp.boundary.naming import face_names
 from decomp.boundary.rays import Walker
 from decomp.boundary.topology import Convexity, Edge, Face, RegionBoundary, Vertex
 from decomp.boundary.torus_loops import genus, winding
+from decomp.boundary.touching import touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.carriers import Cone, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
@@ -62,6 +63,12 @@ class Boundaries:
     def _union(self) -> _Source:
         source = self._sources[0]
         return _build(source.arrangement, source.stars, Member(self.form, None))
+
+    @cached_property
+    def touching(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of regions that share a piece of surface, lower index first."""
+        whole = [face for s in self._sources for face in s.faces if not face.loops]
+        return touching_regions(self.form, self._sources[0].stars, whole)
 
     def face_at(self, region: int, carrier: int, points: Array) -> Ints:
         """Indices (n,) of a region's faces that hold points (n, 3) of a carrier, else -1.

@@ -50,6 +50,7 @@ def as_json(model: Model, result: Boundaries) -> dict[str, Any]:
         "model": model.name,
         "diagonal": result.diagonal,
         "regions": [_region_json(region) for region in result.regions],
+        "touching": [[result.regions[k].name for k in pair] for pair in result.touching],
         "ignored": [{"statement": i.statement, "line": i.line} for i in model.ignored],
     }
 
@@ -99,6 +100,9 @@ def as_text(model: Model, result: Boundaries) -> list[str]:
     lines.append(f"  diagonal {result.diagonal:.9g}")
     for region in result.regions:
         lines += ["", *_region_text(region)]
+    if result.touching:
+        pairs = (" and ".join(result.regions[k].name for k in pair) for pair in result.touching)
+        lines += ["", f"regions that touch: {', '.join(pairs)}"]
     if model.ignored:
         lines += ["", "ignored statements:"]
         lines += [f"  line {entry.line}: {entry.statement}" for entry in model.ignored]
