@@ -87,15 +87,6 @@ class Program:
             result.append((nodes, np.concatenate(pieces), starts))
         return result
 
-    def carriers_of(self, root: int) -> list[int]:
-        """Indices of the carriers that a root's value may depend on, in ascending order."""
-        needed = np.zeros(len(self.literal), dtype=np.bool_)
-        needed[self.roots[root] >> 1] = True
-        for node in range(len(self.literal) - 1, -1, -1):
-            if needed[node]:
-                needed[self.operands[self.start[node] : self.start[node + 1]] >> 1] = True
-        return sorted(int(c) for c in self.literal[needed] if c >= 0)
-
 
 class ProgramBuilder:
     """Makes nodes, each only once."""
@@ -115,10 +106,6 @@ class ProgramBuilder:
         if FALSE in parts or any(a ^ 1 == b for a, b in pairwise(parts)):
             return FALSE
         return parts[0] if len(parts) == 1 else self._reference(tuple(parts))
-
-    def disjunction(self, references: Iterable[int]) -> int:
-        """Reference to the OR of `references`."""
-        return inverted(self.conjunction(inverted(r) for r in references))
 
     def bound(self, reference: int, box: Array) -> None:
         """Note that what `reference` stands for is false outside a box (2, 3)."""

@@ -13,7 +13,6 @@ from decomp.vectors import Array, dot, norm
 TURN = 0.1
 """Angle in radians by which neighbouring samples may turn."""
 
-COARSE = 0.5
 ROUNDS = 12
 MOST = 20_000
 

@@ -38,10 +38,6 @@ class Chart(ABC):
     def metric(self, u: float, v: float) -> tuple[float, float]:
         """Lengths of the derivatives of `point` by u and by v."""
 
-    @abstractmethod
-    def coordinates(self, p: Array) -> tuple[float, float]:
-        """u and v of one point on the carrier."""
-
 
 @dataclass(frozen=True, eq=False)
 class Rulings(Chart):
@@ -67,13 +63,6 @@ class Rulings(Chart):
     def metric(self, u: float, v: float) -> tuple[float, float]:
         return abs(self.radius + self.out * v), hypot(self.out, self.along)
 
-    def coordinates(self, p: Array) -> tuple[float, float]:
-        away = p - self.start
-        u = float(np.arctan2(dot(away, self.y), dot(away, self.x)))
-        radial = float(dot(away, np.cos(u) * self.x + np.sin(u) * self.y)) - self.radius
-        slant = radial * self.out + float(dot(away, self.axis)) * self.along
-        return u, slant / (self.out**2 + self.along**2)
-
 
 @dataclass(frozen=True, eq=False)
 class Tubes(Chart):
@@ -88,13 +77,6 @@ class Tubes(Chart):
 
     def metric(self, u: float, v: float) -> tuple[float, float]:
         return self.torus.major + self.torus.minor * cos(v), self.torus.minor
-
-    def coordinates(self, p: Array) -> tuple[float, float]:
-        away = p - self.torus.centre
-        u = float(np.arctan2(dot(away, self.y), dot(away, self.x)))
-        rho = float(dot(away, np.cos(u) * self.x + np.sin(u) * self.y)) - self.torus.major
-        v = float(np.arctan2(dot(away, self.torus.axis), rho))
-        return u, self.low + (v - self.low) % (2 * pi)
 
 
 def chart_of(a: Carrier, b: Carrier, window: Window, turn: float) -> Chart:
