@@ -40,22 +40,25 @@ def region_bounds(
         for edge in edges
         if isinstance(edge.curve, (Circle, Ellipse))
     ]
+    box = np.array([np.full(3, np.inf), np.full(3, -np.inf)])
+    for group in points:
+        box = _grown(box, group)
     for face in faces:
         candidates = _axis_points(form.carriers[face.carrier])
-        if len(candidates):
-            points.append(candidates[_near_face(form, member, face, candidates)])
-    cloud = np.concatenate(points)
-    box = np.array([cloud.min(axis=0), cloud.max(axis=0)])
+        beyond = ((candidates < box[0]) | (candidates > box[1])).any(axis=1)
+        if beyond.any():
+            candidates = candidates[beyond]
+            box = _grown(box, candidates[_near_face(form, member, face, candidates)])
     for edge in edges:
         if not isinstance(edge.curve, (Line, Circle, Ellipse)) and _may_stick_out(edge, box):
-            found = _extremes(edge)
-            box = np.array(
-                [
-                    np.minimum(box[0], found.min(axis=0, initial=np.inf)),
-                    np.maximum(box[1], found.max(axis=0, initial=-np.inf)),
-                ]
-            )
+            box = _grown(box, _extremes(edge))
     return box
+
+
+def _grown(box: Array, points: Array) -> Array:
+    """The box that holds a box and points (k, 3)."""
+    low = np.minimum(box[0], points.min(axis=0, initial=np.inf))
+    return np.array([low, np.maximum(box[1], points.max(axis=0, initial=-np.inf))])
 
 
 def _near_face(form: HalfSpaceForm, member: Member, face: RawFace, points: Array) -> Bools:

@@ -26,6 +26,9 @@ SAME_DIRECTION = 1e-7
 CLEAR = 1e-12
 """A signed distance above this part of the scale has a certain sign: points are exact to 1e-15."""
 
+BLOCK = 1024
+"""Arcs that are looked at together: memory grows with this times the number of carriers."""
+
 
 @dataclass(frozen=True, eq=False)
 class HalfSheet:
@@ -65,20 +68,22 @@ class Star:
 
 def stars(arrangement: Arrangement) -> list[Star]:
     """The surroundings of every arc."""
-    if not arrangement.arcs:
-        return []
-    points = np.array([_clear_point(arrangement, arc) for arc in arrangement.arcs])
+    blocks = range(0, len(arrangement.arcs), BLOCK)
+    return [star for first in blocks for star in _block_of_stars(arrangement, first)]
+
+
+def _block_of_stars(arrangement: Arrangement, first: int) -> list[Star]:
+    """The surroundings of up to BLOCK arcs from number `first` on."""
+    arcs = arrangement.arcs[first : first + BLOCK]
+    points = np.array([_clear_point(arrangement, arc) for arc in arcs])
     inside = arrangement.form.signed_distances(points) < 0
-    sheets = [
-        _half_sheets(arrangement, arc, point)
-        for arc, point in zip(arrangement.arcs, points, strict=True)
-    ]
-    rows = [_wedge_signs(ring, row) for ring, row in zip(sheets, inside, strict=True)]
+    rings = [_half_sheets(arrangement, arc, point) for arc, point in zip(arcs, points, strict=True)]
+    rows = [_wedge_signs(ring, row) for ring, row in zip(rings, inside, strict=True)]
     filled = arrangement.form.program.evaluate(np.concatenate(rows))
-    ends = np.cumsum([len(ring) for ring in sheets])
+    ends = np.cumsum([len(ring) for ring in rings])
     return [
-        Star(index, points[index], tuple(ring), filled[end - len(ring) : end])
-        for index, (ring, end) in enumerate(zip(sheets, ends, strict=True))
+        Star(first + k, points[k], tuple(ring), filled[end - len(ring) : end])
+        for k, (ring, end) in enumerate(zip(rings, ends, strict=True))
     ]
 
 
