@@ -10,11 +10,12 @@ equations gives x' = m d with d the unit vector along n_a x n_b and
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import sin
 from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers import Carrier
+from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.curves.base import Curve
 from decomp.curves.newton import SINGULAR, cross_direction, onto_pair
 from decomp.vectors import Array, Bools, Ints, dot, norm
@@ -55,6 +56,7 @@ class TracedCurve(Curve):
         object.__setattr__(self, "tangents", tangents)
         object.__setattr__(self, "knots", knots)
         object.__setattr__(self, "domain", (0.0, float(knots[-1])))
+        object.__setattr__(self, "kind", _kind(self.a, self.b))
 
     def point(self, t: Array) -> Array:
         t = self.wrapped(np.asarray(t, dtype=np.float64))
@@ -131,6 +133,17 @@ class TracedCurve(Curve):
         i = np.argmin(gap, axis=1)
         rows = np.arange(len(p))
         return np.asarray(self.knots[i] + s[rows, i] * (self.knots[i + 1] - self.knots[i]))
+
+
+def _kind(a: Carrier, b: Carrier) -> str:
+    """What the curve is called: conics too long for closed form are traced, but stay conics."""
+    for plane, other in ((a, b), (b, a)):
+        if isinstance(plane, Plane) and isinstance(other, Cylinder):
+            return "ellipse"
+        if isinstance(plane, Plane) and isinstance(other, Cone):
+            steep = abs(float(plane.normal_vector @ other.axis))
+            return "ellipse" if steep > sin(other.angle) else "hyperbola"
+    return "curve"
 
 
 def sample_tangents(
