@@ -13,7 +13,7 @@ from decomp.boundary.arcs import Arrangement, arrange
 from decomp.boundary.bounds import region_bounds
 from decomp.boundary.edges import RawEdge, raw_edges
 from decomp.boundary.faces import RawFace, face_at, raw_faces
-from decomp.boundary.integrals import Track, face_integrals, tracks
+from decomp.boundary.integrals import FaceIntegrals, Track, face_integrals, tracks
 from decomp.boundary.loops import LoopSet, loop_sets
 from decomp.boundary.member import Member
 from decomp.boundary.naming import face_names
@@ -25,8 +25,8 @@ from decomp.boundary.wedges import Star, stars
 from decomp.carriers import Cone, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import Model
-from decomp.errors import EmptyRegionError, UnboundedRegionError
-from decomp.vectors import Array, Ints, frame, norm
+from decomp.errors import EmptyRegionError, GeometryError, UnboundedRegionError
+from decomp.vectors import Array, Ints, frame, norm, place
 
 WINDOWS = (2.0, 2e4)
 """Radii, in units of the estimated scale, within which a model is looked for."""
@@ -189,6 +189,7 @@ def _boundary(
         ]
         for level in (0, 1)
     )
+    _refuse_broken(form, member, raw, fine)
     names = face_names(raw, [_probes(face, edges, form, member) for face in raw], member)
     faces = tuple(
         Face(
@@ -218,8 +219,20 @@ def _boundary(
         area,
         sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
         region_bounds(form, member, raw, finished, vertices),
-        _euler(form, edges, points, raw),
+        _euler(form, member, edges, points, raw),
     )
+
+
+def _refuse_broken(
+    form: HalfSpaceForm, member: Member, raw: Sequence[RawFace], integrals: Sequence[FaceIntegrals]
+) -> None:
+    """Raise GeometryError where loops were not joined to the right faces: a hole has area < 0."""
+    for face, integral in zip(raw, integrals, strict=True):
+        if integral.area <= 0:
+            raise GeometryError(
+                f"region {member.name!r}: the loops on {form.carrier_name(face.carrier)} near "
+                f"{place(face.point)} could not be joined to faces"
+            )
 
 
 def _poles(
@@ -336,15 +349,24 @@ def _around_apex(cone: Cone, step: float) -> Array:
 
 def _apex_face(here: Sequence[int], raw: Sequence[RawFace], cone: Cone, member: Member) -> int:
     """Of the faces on a cone the one that reaches its apex: a way down a ruling stays inside."""
+    if len(here) == 1:
+        return here[0]
     for k in here:
         way = cone.apex + np.linspace(0.01, 1, 50)[:, None] * (raw[k].point - cone.apex)
         if member.is_face(raw[k].carrier, raw[k].outward, way).all():
             return k
-    return here[0]
+    raise GeometryError(
+        f"region {member.name!r}: no face of {member.form.carrier_name(raw[here[0]].carrier)} was "
+        f"found at its apex {place(cone.apex)}"
+    )
 
 
 def _euler(
-    form: HalfSpaceForm, edges: Sequence[RawEdge], points: Array, raw: Sequence[RawFace]
+    form: HalfSpaceForm,
+    member: Member,
+    edges: Sequence[RawEdge],
+    points: Array,
+    raw: Sequence[RawFace],
 ) -> int:
     """Half the Euler characteristic of the boundary, which is that of the solid."""
     total = len(points) - sum(edge.ends is not None for edge in edges)
@@ -354,6 +376,11 @@ def _euler(
         if isinstance(carrier, Torus):
             handles = genus([winding(carrier, edges, p, face.outward) for p in face.loops])
         total += 2 - 2 * handles - len(face.loops)
+    if total % 2:
+        raise GeometryError(
+            f"region {member.name!r}: its boundary has the odd Euler characteristic {total}, so it "
+            "was not assembled correctly"
+        )
     return total // 2
 
 

@@ -103,7 +103,7 @@ def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
         between = -between
     if float(norm(between)) < 1e-6:
         between = cross(cross(first.direction, second.direction), first.direction)
-    for step in form.scale * 10.0 ** -np.arange(1, 9):
+    for step in form.scale * 10.0 ** -np.arange(1, 12):
         point = star.point + step * between / (norm(between) or 1.0)
         if form.regions_at(point).sum() > 1:
             return np.asarray(point)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -176,11 +176,10 @@ def _loop_reached(walker: Walker, point: Array) -> int | None:
     return None
 
 
-def _join_outer_torus_loops(walker: Walker, parent: list[int], root: object) -> None:
+def _join_outer_torus_loops(walker: Walker, parent: list[int], root: Callable[[int], int]) -> None:
     """Loops that enclose nothing and go around neither way all bound the torus's one big face."""
     carrier = walker.member.form.carriers[walker.loops.carrier]
     assert isinstance(carrier, Torus)
-    assert callable(root)
     windings: list[Winding] = [
         winding(carrier, walker.edges, loop, walker.loops.outward) for loop in walker.loops.loops
     ]

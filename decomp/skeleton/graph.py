@@ -204,7 +204,9 @@ class _Grower:
         found = equidistant(self._boundary, self._index.sites, sites, last.point[None], feet)
         point = found.points[0]
         if float(norm(point - last.point)) > 1e-4 * self._size:
-            point = last.point
+            raise GeometryError(
+                f"the junction at the end of a seam near {place(last.point)} is lost"
+            )
         return self._node_at(point)
 
     def _node_at(self, point: Array) -> int:
