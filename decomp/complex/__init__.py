@@ -1,0 +1,1 @@
+"""One conforming complex of triangles: boundary faces, interfaces, sheets and trim surfaces."""
