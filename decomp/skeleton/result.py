@@ -1,0 +1,192 @@
+"""What the skeleton of a model is given as."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.complex.model import Complex
+from decomp.sites.site import Site
+from decomp.vectors import Array
+
+
+class Parity(Enum):
+    """On which side of its two carriers a sheet lies.
+
+    EVEN: inside both or outside both; ODD: inside one and outside the other.
+    """
+
+    EVEN = "even"
+    ODD = "odd"
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A maximal connected two-dimensional piece of the skeleton on one Vor(f, g).
+
+    Args:
+        sites: f and g, indices into `Skeleton.sites`; the same one twice for an edge's sheet with
+            itself.
+        parity: None unless both sites are faces.
+        patch: index into the complex's patches; its normal points from f's side to g's.
+        area: of its triangles.
+        radius: least and greatest distance to the boundary.
+    """
+
+    sites: tuple[int, int]
+    parity: Parity | None
+    patch: int
+    area: float
+    radius: tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class SkeletonLine:
+    """A seam (three or more sheets), a trim (two that go on smoothly) or a rim (one).
+
+    Args:
+        sites: the site of each contact.
+        sheets: that meet along it, indices into `RegionSkeleton.sheets`.
+        line: index into the complex's lines.
+        length: of its polyline.
+        closed: whether it ends where it begins without a junction.
+    """
+
+    sites: tuple[int, ...]
+    sheets: tuple[int, ...]
+    line: int
+    length: float
+    closed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Junction:
+    """A point where seams end; on the boundary (radius 0) a vertex that they reach.
+
+    Args:
+        vertex: index into the complex's points.
+        radius: distance to the boundary.
+        sites: of its contacts; sites that share a contact follow each other.
+    """
+
+    vertex: int
+    radius: float
+    sites: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Reflexive:
+    """A part of a carrier's reflexive locus whose points are nearest to that carrier's face.
+
+    Args:
+        site: the face.
+        dimension: 1 for a curve, 0 for a point.
+        line: index into the complex's lines, None for a point.
+        vertex: index into the complex's points, None for a curve.
+        length: of the curve, 0 for a point.
+        closed: whether the curve is a loop.
+    """
+
+    site: int
+    dimension: int
+    line: int | None
+    vertex: int | None
+    length: float
+    closed: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """A part of a region bounded by boundary faces, sheets and (face cells only) trim surfaces.
+
+    Args:
+        name: `region/face`, `region/face+face`, or `region/cell-N` beyond three faces.
+        faces: names of the boundary faces it has.
+        sides: its closed surface, as (patch, +1 or -1): the patch's own orientation or the
+            opposite one points out of the cell. A sheet with the cell on both sides stands twice.
+        volume: inside its closed surface.
+    """
+
+    name: str
+    faces: tuple[str, ...]
+    sides: tuple[tuple[int, int], ...]
+    volume: float
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """How good a skeleton is. Lengths are relative to the model's diagonal.
+
+    Args:
+        residual: largest difference between the distances of a skeleton vertex to its sites, or
+            distance of a boundary vertex from its carriers.
+        chord_error: largest distance of a triangle or segment from its exact surface or curve.
+        flipped: triangles whose normal opposes their surface's.
+        open_cells: cells whose surface is not a closed 2-cycle.
+        volume_error: of the sum of the cells' volumes, relative to the region's volume.
+        euler: Euler characteristic of the skeleton with its reflexive curves and points.
+        expected_euler: the region's.
+        intrusion: largest depth to which the boundary enters the ball of a skeleton vertex.
+        coverage: largest distance from the end of a shrinking ball to the skeleton.
+    """
+
+    residual: float
+    chord_error: float
+    flipped: int
+    open_cells: int
+    volume_error: float
+    euler: int
+    expected_euler: int
+    intrusion: float
+    coverage: float
+
+
+@dataclass(frozen=True, eq=False)
+class RegionSkeleton:
+    """The skeleton of one region.
+
+    Args:
+        name: the region's.
+        boundary: its exact boundary.
+        face_sides: for each face of the region its patches, as (patch, +1 or -1): the sign tells
+            whether the patch's normal points out of the region.
+        cells: skeleton cells, bounded by boundary faces and sheets alone.
+        face_cells: one for each face, bounded by trim surfaces too.
+    """
+
+    name: str
+    boundary: RegionBoundary
+    sheets: tuple[Sheet, ...]
+    seams: tuple[SkeletonLine, ...]
+    trims: tuple[SkeletonLine, ...]
+    rims: tuple[SkeletonLine, ...]
+    junctions: tuple[Junction, ...]
+    reflexive: tuple[Reflexive, ...]
+    face_sides: tuple[tuple[tuple[int, int], ...], ...]
+    cells: tuple[Cell, ...]
+    face_cells: tuple[Cell, ...]
+    certificate: Certificate
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """The skeleton of a model, all regions over one complex.
+
+    Args:
+        name: the model's.
+        diagonal: length of the diagonal of the box around all regions.
+        tolerance: the chord tolerance it was made to, in model units.
+        sites: what points can be nearest to (`SiteIndex.sites`).
+        complex: all triangles and lines.
+        radius: distance (n,) from each of the complex's points to the boundary, 0 on it.
+        regions: in the model's order.
+    """
+
+    name: str
+    diagonal: float
+    tolerance: float
+    sites: tuple[Site, ...]
+    complex: Complex
+    radius: Array
+    regions: tuple[RegionSkeleton, ...]
