@@ -1,0 +1,273 @@
+"""A complex while it is changed: flat arrays of triangles and line segments, and their edges.
+
+Edges are of two kinds. A segment of a line is ONE edge for all patches and lines that contain it.
+An edge inside a patch belongs to that patch alone, even where another patch joins the same two
+vertices: the two surfaces differ between them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from decomp.complex.errors_of import edge_errors, triangle_errors
+from decomp.complex.model import Complex
+from decomp.complex.refine_elements import Elements
+from decomp.errors import GeometryError
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array, Bools, Ints, norm, place
+
+BITS = 22
+"""Bits of a vertex number in an edge's key."""
+
+PAIR = (1 << 2 * BITS) - 1
+
+
+@dataclass(eq=False)
+class Edges:
+    """All edges of a mesh, sorted by key.
+
+    A half-edge h is side h % 3 of triangle h // 3, from its corner h % 3 to the next; numbers from
+    3 m on are the segments of lines.
+
+    Args:
+        keys: (n,) owner and two vertices, packed.
+        owner: (n,) the patch that an edge is inside of, -1 for segments of lines.
+        ends: (n, 2) vertices.
+        of_half: (h,) the edge of each half-edge.
+        halves: (h,) half-edges, grouped by edge, those of triangles first.
+        starts: (n + 1,) where each edge's group begins.
+        sides: (n,) how many triangles have the edge.
+        error: (n,) chord error, NaN where not measured.
+        middle: (n, 3) midpoint on the element, where measured.
+    """
+
+    keys: Ints
+    owner: Ints
+    ends: Ints
+    of_half: Ints
+    halves: Ints
+    starts: Ints
+    sides: Ints
+    error: Array
+    middle: Array
+
+
+def pair_keys(a: Ints, b: Ints) -> Ints:
+    """One number for two vertices in any order."""
+    return (np.minimum(a, b) << BITS) | np.maximum(a, b)
+
+
+def found(sorted_keys: Ints, keys: Ints) -> tuple[Ints, Bools]:
+    """Where each key stands in a sorted array, and whether it is there."""
+    if len(sorted_keys) == 0:
+        return np.zeros(len(keys), dtype=np.int64), np.zeros(len(keys), dtype=bool)
+    at = np.minimum(np.searchsorted(sorted_keys, keys), len(sorted_keys) - 1)
+    return at, sorted_keys[at] == keys
+
+
+class Mesh:
+    """Triangles and segments that are split, flipped and collapsed.
+
+    Attributes:
+        points: (n, 3) exact vertices.
+        triangles: (m, 3).
+        patch: (m,) the patch of each triangle.
+        error, upright: (m,) as `triangle_errors` gives them, NaN where not measured.
+        fresh: (m,) whether a triangle has changed since flips were last tried.
+        path, path_line: (s,) vertices of all lines, one line after the other, and their lines.
+        edges: of the triangles and segments as they are now.
+    """
+
+    def __init__(self, given: Complex, limit: float) -> None:
+        self.elements = Elements(given)
+        self.limit = limit
+        self.points: Array = np.array(given.points, dtype=np.float64)
+        self.diagonal = float(norm(np.ptp(self.points, axis=0))) if len(self.points) else 0.0
+        self.triangles: Ints = np.concatenate(
+            [np.empty((0, 3), np.int64), *(p.triangles for p in given.patches)]
+        ).astype(np.int64)
+        self.patch: Ints = np.repeat(
+            np.arange(len(given.patches)), [len(p.triangles) for p in given.patches]
+        )
+        self.path: Ints = np.concatenate(
+            [np.empty(0, np.int64), *(line.vertices for line in given.lines)]
+        ).astype(np.int64)
+        self.path_line: Ints = np.repeat(
+            np.arange(len(given.lines)), [len(line.vertices) for line in given.lines]
+        )
+        self.error: Array = np.full(len(self.triangles), np.nan)
+        self.upright: Array = np.full(len(self.triangles), np.nan)
+        self.fresh: Bools = np.ones(len(self.triangles), dtype=bool)
+        if len(self.points) >= 1 << BITS or len(given.patches) >= 1 << (62 - 2 * BITS):
+            raise GeometryError(f"{len(self.points)} points are more than can be refined")
+        self._given = given
+        self.edges: Edges = self._connected(None)
+
+    @property
+    def surface(self) -> Ints:
+        """The element (m,) of each triangle."""
+        return self.elements.of_patch[self.patch]
+
+    def connect(self) -> None:
+        """Find the edges anew; what was measured of those that stay is kept."""
+        self.edges = self._connected(self.edges)
+
+    def _connected(self, old: Edges | None) -> Edges:
+        segment = np.flatnonzero(self.path_line[1:] == self.path_line[:-1])
+        a = np.concatenate([self.triangles.ravel(), self.path[segment]])
+        b = np.concatenate([np.roll(self.triangles, -1, axis=1).ravel(), self.path[segment + 1]])
+        pairs = pair_keys(a, b)
+        inner = len(self.triangles) * 3
+        owner = np.repeat(self.patch, 3)
+        _, on_line = found(np.sort(pairs[inner:]), pairs[:inner])
+        keys = pairs
+        keys[:inner] |= np.where(on_line, 0, owner + 1) << 2 * BITS
+        halves = np.argsort(keys, kind="stable")
+        first = np.ones(len(keys), dtype=bool)
+        first[1:] = keys[halves[1:]] != keys[halves[:-1]]
+        starts = np.append(np.flatnonzero(first), len(keys))
+        of_half = np.empty(len(keys), dtype=np.int64)
+        of_half[halves] = np.cumsum(first) - 1
+        distinct = keys[halves[first]]
+        count = len(distinct)
+        ends = np.stack([(distinct & PAIR) >> BITS, distinct & ((1 << BITS) - 1)], axis=1)
+        error, middle = np.full(count, np.nan), np.empty((count, 3))
+        if old is not None:
+            at, same = found(old.keys, distinct)
+            error[same] = old.error[at[same]]
+            middle[same] = old.middle[at[same]]
+        sides = np.bincount(of_half[:inner], minlength=count)
+        owner_of = (distinct >> 2 * BITS) - 1
+        return Edges(distinct, owner_of, ends, of_half, halves, starts, sides, error, middle)
+
+    def segments(self) -> tuple[Ints, Ints]:
+        """Where in `path` each segment begins, and the curve that it is on."""
+        at = np.flatnonzero(self.path_line[1:] == self.path_line[:-1])
+        return at, self.elements.of_line[self.path_line[at]]
+
+    # --- measuring --------------------------------------------------------------------------
+
+    def measure(self) -> None:
+        """Measure the edges and triangles that have not been."""
+        self.measure_edges()
+        new = np.flatnonzero(np.isnan(self.error))
+        corners = self.points[self.triangles[new]]
+        self.error[new], self.upright[new] = triangle_errors(
+            self.elements, self.surface[new], corners
+        )
+
+    def measure_edges(self) -> None:
+        """Measure the edges that have not been, each against all elements that it is on.
+
+        Raises:
+            GeometryError: an element places points farther away than its own vertices are, or two
+                lines share a segment but not the curve between its ends.
+        """
+        edges = self.edges
+        new = np.isnan(edges.error)
+        if not new.any():
+            return
+        half = np.flatnonzero(new[edges.of_half])
+        inner = 3 * len(self.triangles)
+        _, curves = self.segments()
+        element = np.empty(len(half), dtype=np.int64)
+        of_triangle = half < inner
+        element[of_triangle] = self.surface[half[of_triangle] // 3]
+        element[~of_triangle] = curves[half[~of_triangle] - inner]
+        # curves come last in each edge's group, so that a segment's midpoint is on its curve
+        both = np.unique(np.stack([edges.of_half[half], element]), axis=1)
+        which, element = both
+        ends = self.points[edges.ends[which]]
+        error, middle = edge_errors(self.elements, element, ends, self.limit)
+        length = norm(ends[:, 1] - ends[:, 0])
+        self._check_short(element, ends.mean(axis=1), error, length)
+        last = np.append(which[1:] != which[:-1], True)
+        edges.middle[which[last]] = middle[last]
+        curve = np.flatnonzero(element >= self.elements.first_curve)
+        part = norm(middle[curve] - edges.middle[which[curve]])
+        apart = np.flatnonzero(part > 1e3 * TOLERANCE * self.diagonal)
+        if len(apart):
+            raise GeometryError(
+                "two lines share a segment but not its curve at "
+                f"{place(ends.mean(axis=1)[curve[apart[0]]])}; it must be divided"
+            )
+        edges.error[new] = 0.0
+        np.maximum.at(edges.error, which, error)
+
+    def _check_short(self, element: Ints, points: Array, moved: Array, length: Array) -> None:
+        """An element must not place a chord's midpoint farther away than the chord is long."""
+        far = np.flatnonzero(moved > np.maximum(length, TOLERANCE * self.diagonal))
+        if len(far):
+            raise GeometryError(
+                f"{self.elements.names[int(element[far[0]])]} places {place(points[far[0]])} "
+                "farther away than its own vertices are"
+            )
+
+    # --- changing ---------------------------------------------------------------------------
+
+    def add(self, points: Array) -> Ints:
+        """Append vertices (k, 3); their numbers."""
+        before = len(self.points)
+        if before + len(points) >= 1 << BITS:
+            raise GeometryError("more points are needed than can be numbered: tolerance too small")
+        self.points = np.concatenate([self.points, points])
+        return np.arange(before, before + len(points))
+
+    def set_triangles(self, which: Ints, corners: Ints) -> None:
+        """Give triangles other corners (k, 3)."""
+        self.triangles[which] = corners
+        self.error[which] = np.nan
+        self.upright[which] = np.nan
+        self.fresh[which] = True
+
+    def add_triangles(self, corners: Ints, patch: Ints) -> None:
+        """Append triangles (k, 3)."""
+        count = len(corners)
+        self.triangles = np.concatenate([self.triangles, corners])
+        self.patch = np.concatenate([self.patch, patch])
+        self.error = np.concatenate([self.error, np.full(count, np.nan)])
+        self.upright = np.concatenate([self.upright, np.full(count, np.nan)])
+        self.fresh = np.concatenate([self.fresh, np.ones(count, dtype=bool)])
+
+    def drop_triangles(self, which: Ints) -> None:
+        """Remove triangles."""
+        keep = np.ones(len(self.triangles), dtype=bool)
+        keep[which] = False
+        self.triangles, self.patch = self.triangles[keep], self.patch[keep]
+        self.error, self.upright = self.error[keep], self.upright[keep]
+        self.fresh = self.fresh[keep]
+
+    # --- result -----------------------------------------------------------------------------
+
+    def result(self) -> tuple[Complex, Ints]:
+        """The complex as it is now, and the new number of each of the given points.
+
+        Given points keep their order. One that was inside a patch and is gone has the number -1;
+        given points that were in no triangle and on no line stay.
+        """
+        before = len(self._given.points)
+        keep = np.zeros(len(self.points), dtype=bool)
+        keep[:before] = True
+        for patch in self._given.patches:
+            keep[patch.triangles] = False
+        keep[self.triangles] = True
+        keep[self.path] = True
+        number = np.where(keep, np.cumsum(keep) - 1, -1)
+        order = np.argsort(self.patch, kind="stable")
+        triangles = number[self.triangles[order]]
+        cuts = np.searchsorted(self.patch[order], np.arange(1, len(self._given.patches)))
+        patches = [
+            replace(patch, triangles=some)
+            for patch, some in zip(self._given.patches, np.split(triangles, cuts), strict=False)
+        ]
+        cuts = np.searchsorted(self.path_line, np.arange(1, len(self._given.lines)))
+        lines = [
+            replace(line, vertices=some)
+            for line, some in zip(
+                self._given.lines, np.split(number[self.path], cuts), strict=False
+            )
+        ]
+        made = Complex(self.points[keep], tuple(patches), tuple(lines))
+        return made, number[:before]
