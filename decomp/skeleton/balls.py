@@ -3,7 +3,8 @@ nearest neighbors and the normal field, 2012), here with exact feet instead of s
 
 The ball that touches the boundary at q from inside, with its centre on the inward normal, shrinks
 until no boundary point lies inside it. Its centre is then a point of the skeleton: either the ball
-touches a second boundary point, or its centre is the centre of curvature at q.
+touches a second boundary point, or its centre is the centre of curvature at q. A second contact is
+made exact by Newton's method on d(q + r n) = r for the radius r, with d the distance from the site.
 """
 
 from __future__ import annotations
@@ -15,11 +16,12 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
-from decomp.vectors import Array, Ints, dot, place
+from decomp.skeleton.fields import site_fields
+from decomp.skeleton.probing import TOWARDS, probe
+from decomp.skeleton.shrinking import OSCULATES, RESTLESS, SIZELESS, TOUCHES, shrink
+from decomp.vectors import Array, Ints, dot, norm, place
 
-ROUNDS = 200
-EMPTY = 1e-12
-"""A ball counts as empty when it reaches beyond the boundary by less than this part of the size."""
+POLISHINGS = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +31,9 @@ class Balls:
     Args:
         centre: (k, 3).
         radius: (k,).
-        site: the site (k,) of the second contact.
-        foot: the second contact (k, 3).
+        site: the site (k,) of the second contact; -1 where there is none, the centre being the
+            centre of curvature at the point itself.
+        foot: the second contact (k, 3); the point itself where there is none.
     """
 
     centre: Array
@@ -45,43 +48,55 @@ def inscribed_balls(
     """The maximal balls that touch the boundary at points (k, 3) with inward unit normals (k, 3).
 
     Raises:
-        GeometryError: a ball does not come to rest.
+        GeometryError: there is no ball at a point, or it is not found; says where.
     """
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    inward = np.ascontiguousarray(inward, dtype=np.float64)
+    size, n = boundary.diagonal, len(points)
+    radius, foot = np.empty(n), np.empty((n, 3))
+    state = np.empty(n, dtype=np.int64)
+    queries = probe(index, region, size)
+    shrink(queries, points, inward, size, np.full(n, size), radius, foot, state)
+    for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
+        if (state == bad).any():
+            where = place(points[np.argmax(state == bad)])
+            raise GeometryError(f"the ball that touches the boundary at {where} {what}")
+    foot[state == OSCULATES] = points[state == OSCULATES]
+    site = np.full(n, -1, dtype=np.int64)
+    two = np.flatnonzero(state == TOUCHES)
+    centre = points[two] + radius[two, None] * inward[two]
+    site[two] = index.nearest(centre + TOWARDS * (foot[two] - centre)).site
+    found = Balls(points + radius[:, None] * inward, radius, site, foot)
+    return _polished(index, boundary, points, inward, found, two)
+
+
+def _polished(
+    index: SiteIndex,
+    boundary: RegionBoundary,
+    points: Array,
+    inward: Array,
+    balls: Balls,
+    two: Ints,
+) -> Balls:
+    """Make second contacts exact, where they are far enough from the first for that."""
     size = boundary.diagonal
-    radius = np.full(len(points), size)
-    site = np.full(len(points), -1, dtype=np.int64)
-    foot = np.array(points)
-    moving = np.arange(len(points))
-    for _ in range(ROUNDS):
-        centre = points[moving] + radius[moving, None] * inward[moving]
-        found = index.nearest(centre)
-        outside = found.region != region
-        # outside the region the centre itself is a point that the ball must not hold
-        hit = np.where(outside[:, None], centre, found.foot)
-        reach = np.where(outside, 0.0, found.distance)
-        chord = hit - points[moving]
-        lift = dot(chord, inward[moving])
-        inside = reach < radius[moving] - EMPTY * size
-        touching = ~inside
-        with np.errstate(divide="ignore", invalid="ignore"):
-            smaller = dot(chord, chord) / (2 * lift)
-        shrinks = inside & (lift > 0) & (smaller < radius[moving])
-        radius[moving[shrinks]] = smaller[shrinks]
-        met = shrinks & ~outside
-        site[moving[met]] = found.site[met]
-        foot[moving[met]] = found.foot[met]
-        if (inside & ~shrinks).any():
-            bad = points[moving[inside & ~shrinks][0]]
-            raise GeometryError(f"the ball that touches the boundary at {place(bad)} has no size")
-        moving = moving[~touching]
-        if not len(moving):
-            break
-    else:
-        raise GeometryError(
-            f"the ball that touches the boundary at {place(points[moving[0]])} "
-            f"does not come to rest in {ROUNDS} rounds"
+    radius, foot = balls.radius[two], balls.foot[two]
+    site, start, normal = balls.site[two], points[two], inward[two]
+    for _ in range(POLISHINGS):
+        field = site_fields(boundary, index.sites, site, start + radius[:, None] * normal, foot)
+        slope = 1 - dot(field.gradient, normal)
+        step = (field.distance - radius) / np.where(slope > 0, slope, 1.0)
+        near = (
+            (slope > 1e-6)
+            & (np.abs(step) <= 1e-4 * np.minimum(radius, size))
+            & (norm(field.foot - foot) <= 1e-2 * radius)
         )
-    return Balls(points + radius[:, None] * inward, radius, site, foot)
+        radius = np.where(near, radius + step, radius)
+        foot = np.where(near[:, None], field.foot, foot)
+    result = Balls(balls.centre, balls.radius, balls.site, balls.foot)
+    result.radius[two], result.foot[two] = radius, foot
+    result.centre[two] = start + radius[:, None] * normal
+    return result
 
 
 def largest_gap(index: SiteIndex, region: int, centre: Array, radius: Array) -> float:

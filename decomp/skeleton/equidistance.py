@@ -15,12 +15,11 @@ import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites.site import Site
-from decomp.skeleton.fields import site_fields
-from decomp.vectors import Array, Bools, Ints, norm
+from decomp.skeleton.balance import balance_all
+from decomp.skeleton.supports import SupportTable, support_table
+from decomp.vectors import Array, Bools, Ints
 
-STEPS = 30
-RANK = 1e-7
-"""Directions in which the equations change less than this part of the most are left alone."""
+CONVERGED = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,43 +53,18 @@ def equidistant(
         points: (k, 3), near their elements.
         feet: (k, m, 3), a foot on each site, or close to it.
     """
-    x, feet = np.array(points), np.array(feet)
-    size = boundary.diagonal
-    moving = np.ones(len(x), dtype=np.bool_)
-    distances = np.empty(which.shape)
-    for _ in range(STEPS):
-        rows = np.flatnonzero(moving)
-        if not len(rows):
-            break
-        distance, gradient = _at(boundary, sites, which[rows], x[rows], feet, rows)
-        distances[rows] = distance
-        f = distance[:, 1:] - distance[:, :1]
-        jacobian = gradient[:, 1:] - gradient[:, :1]
-        step = -(np.linalg.pinv(jacobian, rcond=RANK) @ f[..., None])[..., 0]
-        length = norm(step)
-        # a step beyond the distance itself has left the neighbourhood where the sites are known
-        limit = 0.5 * np.abs(distance).min(axis=1) + 1e-3 * size
-        step *= np.minimum(1.0, limit / np.maximum(length, 1e-300))[:, None]
-        x[rows] += step
-        moving[rows] = length > 4e-16 * size
-    distance, _ = _at(boundary, sites, which, x, feet, np.arange(len(x)))
-    residual = distance.max(axis=1) - distance.min(axis=1)
-    return Equidistant(x, distance.mean(axis=1), feet, residual, residual <= 1e-12 * size)
+    return balanced(support_table(boundary, sites), boundary.diagonal, which, points, feet)
 
 
-def _at(
-    boundary: RegionBoundary,
-    sites: Sequence[Site],
-    which: Ints,
-    points: Array,
-    feet: Array,
-    rows: Ints,
-) -> tuple[Array, Array]:
-    """Distances (k, m) and gradients (k, m, 3); the feet at `rows` are brought up to date."""
-    distance = np.empty(which.shape)
-    gradient = np.empty((*which.shape, 3))
-    for column in range(which.shape[1]):
-        field = site_fields(boundary, sites, which[:, column], points, feet[rows, column])
-        distance[:, column], gradient[:, column] = field.distance, field.gradient
-        feet[rows, column] = field.foot
-    return distance, gradient
+def balanced(
+    table: SupportTable, size: float, which: Ints, points: Array, feet: Array
+) -> Equidistant:
+    """The same for rows of a table of supports of a model of a given size."""
+    x = np.array(points, dtype=np.float64)
+    n, count = which.shape
+    flat = np.array(feet, dtype=np.float64).reshape(n * count, 3)
+    rows = np.ascontiguousarray(which, dtype=np.int64).reshape(-1)
+    radius, residual = np.empty(n), np.empty(n)
+    balance_all(table, rows, count, flat, x, radius, residual, size, np.empty((count + 3, 7)))
+    converged = np.isfinite(x).all(axis=1) & (residual <= CONVERGED * size)
+    return Equidistant(x, radius, flat.reshape(n, count, 3), residual, converged)

@@ -1,8 +1,8 @@
 """Distance from a site and its gradient, smooth across the site's own ends.
 
-A site counts here as its untrimmed support: a face as its carrier, an edge as its curve near a
-known foot, a vertex as its point. So the distance is smooth and Newton's method may step past a
-site's end; whether the site is truly nearest is for the nearest-site query to say.
+A site counts here as its untrimmed support, see `supports`. So the distance is smooth and Newton's
+method may step past a site's end; whether the site is truly nearest is for the nearest-site query
+to say.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
-from decomp.carriers import Carrier
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.site import Site, SiteKind
-from decomp.vectors import Array, Ints, cross, dot, norm
-
-FOOT_STEPS = 20
+from decomp.sites.carrier_kernels import carrier_table
+from decomp.sites.site import Site
+from decomp.skeleton.balance import fields_at
+from decomp.skeleton.supports import CURVE, SupportTable, support_table
+from decomp.vectors import Array, Ints, dot
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,38 +50,16 @@ def site_fields(
         points: (k, 3).
         feet: a foot of each point or of one close by (k, 3), from which curved edges are searched.
     """
-    result = Field(np.empty(len(points)), np.empty((len(points), 3)), np.empty((len(points), 3)))
-    for number in np.unique(which):
-        rows = np.flatnonzero(which == number)
-        part = _field(boundary, sites[number], points[rows], feet[rows])
-        result.distance[rows] = part.distance
-        result.gradient[rows] = part.gradient
-        result.foot[rows] = part.foot
-    return result
+    return support_fields(support_table(boundary, sites), which, points, feet)
 
 
-def _field(boundary: RegionBoundary, site: Site, points: Array, feet: Array) -> Field:
-    match site.kind:
-        case SiteKind.FACE:
-            face = boundary.faces[site.index]
-            carrier = boundary.carriers[face.carrier]
-            foot = carrier.foot(points)
-            inward = -float(face.outward)
-            return Field(
-                inward * carrier.signed_distance(points), inward * carrier.normal(points), foot
-            )
-        case SiteKind.EDGE:
-            return _from_foot(points, edge_foot(boundary, boundary.edges[site.index], points, feet))
-        case SiteKind.VERTEX:
-            point = boundary.vertices[site.index].point
-            return _from_foot(points, np.broadcast_to(point, points.shape))
-
-
-def _from_foot(points: Array, foot: Array) -> Field:
-    away = points - foot
-    distance = norm(away)
-    clear = distance > 0
-    return Field(distance, away / np.where(clear, distance, 1.0)[:, None], np.array(foot))
+def support_fields(table: SupportTable, which: Ints, points: Array, feet: Array) -> Field:
+    """The same for rows of a table of supports."""
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    found = Field(np.empty(len(points)), np.empty((len(points), 3)), np.array(feet, np.float64))
+    which = np.ascontiguousarray(which, dtype=np.int64)
+    fields_at(table, which, points, found.foot, found.distance, found.gradient)
+    return found
 
 
 def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) -> Array:
@@ -92,34 +70,8 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
         return np.asarray(curve.origin + along[:, None] * curve.direction)
     if isinstance(curve, Circle):
         return curve.point(curve.parameter(points))
-    a, b = (boundary.carriers[k] for k in edge.carriers)
-    foot = np.array(feet)
-    for _ in range(FOOT_STEPS):
-        na, nb = a.normal(foot), b.normal(foot)
-        tangent = cross(na, nb)
-        tangent = tangent / norm(tangent)[:, None]
-        residual = [-a.signed_distance(foot), -b.signed_distance(foot), dot(points - foot, tangent)]
-        # the last row is d/dx of (p - x).t, with the curve's own bending in it
-        bend = _bending(a, b, foot, tangent)
-        stretch = 1 - dot(points - foot, bend)
-        rows = np.stack([na, nb, tangent * stretch[:, None]], axis=1)
-        # the pseudo-inverse, as the carriers may touch at the curve's ends
-        right = np.stack(residual, axis=1)[..., None]
-        step = np.asarray((np.linalg.pinv(rows, rcond=1e-9) @ right)[..., 0], dtype=np.float64)
-        foot = np.asarray(foot + step, dtype=np.float64)
-        if norm(step).max(initial=0.0) <= 1e-15 * (1 + np.abs(foot).max(initial=0.0)):
-            break
-    return foot
-
-
-def _bending(a: Carrier, b: Carrier, foot: Array, tangent: Array) -> Array:
-    """Curvature vector (k, 3) of the curve in which carriers a and b meet.
-
-    It lies across the tangent and has normal components -H_a(t, t) and -H_b(t, t).
-    """
-    na, nb = a.normal(foot), b.normal(foot)
-    ha = -a.normal_curvature(foot, tangent)
-    hb = -b.normal_curvature(foot, tangent)
-    c = dot(na, nb)
-    s2 = np.maximum(1 - c**2, 1e-12)
-    return ((ha - c * hb) / s2)[:, None] * na + ((hb - c * ha) / s2)[:, None] * nb
+    pair = carrier_table([boundary.carriers[k] for k in edge.carriers])
+    table = SupportTable(
+        np.array([CURVE]), np.ones(1), np.array([[0, 1]]), np.zeros((1, 10)), pair, 1, 1
+    )
+    return support_fields(table, np.zeros(len(points), dtype=np.int64), points, feet).foot
