@@ -103,9 +103,7 @@ class Made:
 
 
 BLOCK_FACES = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
-INWARD = np.array(
-    [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float
-)
+INWARD = np.stack([np.eye(3), -np.eye(3)], axis=1).reshape(6, 3)
 
 
 @cache
@@ -215,12 +213,8 @@ def block() -> Made:
 
 def polygon_area(points: Array, polygon: list[int]) -> float:
     """Area of a convex plane polygon."""
-    a = points[polygon[0]]
-    fans = [
-        np.cross(points[p] - a, points[q] - a)
-        for p, q in zip(polygon[1:], polygon[2:], strict=False)
-    ]
-    return float(np.linalg.norm(np.sum(fans, axis=0)) / 2)
+    away = points[polygon] - points[polygon[0]]
+    return float(np.linalg.norm(np.cross(away[1:-1], away[2:]).sum(axis=0)) / 2)
 
 
 def extent(radius: Array, polygon: list[int]) -> tuple[float, float]:

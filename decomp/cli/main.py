@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from decomp.cli import convert, info
+from decomp.cli import cells, convert, info, skeleton
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -14,17 +14,20 @@ examples:
   decomp info part.geo                 what is in a model: volume, faces, edges
   decomp info part.csg --json          the same for programs
   decomp convert part.geo part.json    from Netgen or OpenSCAD to decomp's own form
+  decomp skeleton part.geo -o part.vtu its skeleton, for ParaView
+  decomp cells part.geo -o cells       the parts into which the skeleton cuts it
 """
 
 INTERRUPTED = 130
-COMMANDS = (info, convert)
+COMMANDS = (info, convert, skeleton, cells)
 
 
 def parser() -> argparse.ArgumentParser:
     """The argument parser with all subcommands."""
     result = argparse.ArgumentParser(
         prog="decomp",
-        description="Exact boundaries of solids defined by constructive solid geometry (CSG).",
+        description="Exact boundaries and skeletons of solids defined by constructive solid "
+        "geometry (CSG).",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from decomp.cells.surface import side_triangles
+from decomp.complex.errors_of import chord_error, flipped
 from decomp.complex.model import Complex
 from decomp.sites.site import Site
 from decomp.skeleton.certificate_coverage import coverage
@@ -43,8 +44,6 @@ def certified(evidence: Evidence, balls: int = BALLS, seed: int = 0) -> Certifie
     Raises:
         GeometryError: a ball does not come to rest.
     """
-    from decomp.complex.refine import chord_error, flipped
-
     own = region_complex(evidence)
     where = {
         "residual": residual(evidence),

@@ -5,27 +5,16 @@ Segments and single points are triangles whose corners coincide.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import sqrt
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
-from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+from scipy.spatial import cKDTree
 
+from decomp.skeleton.compiled import inlined, scalar
 from decomp.vectors import Array, Ints
 
 LEAF = 8
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-def _compiled(function: F) -> F:
-    """Compile on first use; all that a kernel of this file calls is in this file."""
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy"}
-    try:
-        return cast(F, njit(cache=True, **options)(function))
-    except RuntimeError:  # numba found no directory to write to
-        return cast(F, njit(**options)(function))
 
 
 class TriangleTree(NamedTuple):
@@ -97,29 +86,19 @@ def triangle_distance(tree: TriangleTree, points: Array) -> Array:
     return result
 
 
-@_compiled
-def _search(
-    boxes: Array, after: Ints, first: Ints, last: Ints, corners: Array, points: Array, best: Array
-) -> None:
-    """Lower the bounds `best` (k,) to the distances."""
-    for i in range(len(points)):
-        x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        least = best[i] * best[i]
-        node = 0
-        while node < len(after):
-            dx = max(boxes[node, 0] - x, 0.0, x - boxes[node, 3])
-            dy = max(boxes[node, 1] - y, 0.0, y - boxes[node, 4])
-            dz = max(boxes[node, 2] - z, 0.0, z - boxes[node, 5])
-            if dx * dx + dy * dy + dz * dz > least:
-                node = after[node]
-                continue
-            for k in range(first[node], last[node]):
-                least = min(least, _square(corners, k, x, y, z))
-            node += 1
-        best[i] = sqrt(least)
+@inlined
+def _side(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
+    """Squared distance from the origin to a segment."""
+    ux, uy, uz = bx - ax, by - ay, bz - az
+    square = ux * ux + uy * uy + uz * uz
+    t = 0.0
+    if square > 0.0:
+        t = min(1.0, max(0.0, -(ax * ux + ay * uy + az * uz) / square))
+    px, py, pz = ax + t * ux, ay + t * uy, az + t * uz
+    return px * px + py * py + pz * pz
 
 
-@_compiled
+@inlined
 def _square(corners: Array, k: int, x: float, y: float, z: float) -> float:
     """Squared distance from a point to triangle k: to its plane if it is above it, else to a side.
 
@@ -144,13 +123,23 @@ def _square(corners: Array, k: int, x: float, y: float, z: float) -> float:
     return min(one, two, _side(cx, cy, cz, ax, ay, az))
 
 
-@_compiled
-def _side(ax: float, ay: float, az: float, bx: float, by: float, bz: float) -> float:
-    """Squared distance from the origin to a segment."""
-    ux, uy, uz = bx - ax, by - ay, bz - az
-    square = ux * ux + uy * uy + uz * uz
-    t = 0.0
-    if square > 0.0:
-        t = min(1.0, max(0.0, -(ax * ux + ay * uy + az * uz) / square))
-    px, py, pz = ax + t * ux, ay + t * uy, az + t * uz
-    return px * px + py * py + pz * pz
+@scalar
+def _search(
+    boxes: Array, after: Ints, first: Ints, last: Ints, corners: Array, points: Array, best: Array
+) -> None:
+    """Lower the bounds `best` (k,) to the distances."""
+    for i in range(len(points)):
+        x, y, z = points[i, 0], points[i, 1], points[i, 2]
+        least = best[i] * best[i]
+        node = 0
+        while node < len(after):
+            dx = max(boxes[node, 0] - x, 0.0, x - boxes[node, 3])
+            dy = max(boxes[node, 1] - y, 0.0, y - boxes[node, 4])
+            dz = max(boxes[node, 2] - z, 0.0, z - boxes[node, 5])
+            if dx * dx + dy * dy + dz * dz > least:
+                node = after[node]
+                continue
+            for k in range(first[node], last[node]):
+                least = min(least, _square(corners, k, x, y, z))
+            node += 1
+        best[i] = sqrt(least)

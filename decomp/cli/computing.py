@@ -1,0 +1,86 @@
+"""From a model file to its skeleton, with signs of life, for the commands that need one."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from decomp.skeleton.result import Skeleton
+
+TOLERANCE = 5e-4
+LARGEST = 0.1
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """The options that say which skeleton to compute, and how loudly."""
+    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument(
+        "--tolerance",
+        type=_tolerance,
+        default=TOLERANCE,
+        metavar="T",
+        help="largest distance of a triangle from its exact surface, relative to the model's "
+        f"diagonal (default {TOLERANCE:g})",
+    )
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def computed(options: argparse.Namespace) -> Skeleton:
+    """Load the model and compute its skeleton.
+
+    Raises:
+        DecompError: the model cannot be read, is no solid, or its skeleton cannot be certified.
+    """
+    from decomp.formats import load
+    from decomp.geometry import Geometry
+    from decomp.skeleton.compute import skeleton
+
+    with reporting(options.quiet) as report:
+        report(f"reading {options.model.name}", 0.0)
+        model = load(options.model)
+        report(f"computing the boundary of {model.name}", 0.0)
+        geometry = Geometry(model)
+        return skeleton(geometry, options.tolerance, progress=report)
+
+
+@contextmanager
+def reporting(quiet: bool) -> Iterator[Callable[[str, float], None]]:
+    """A bar on stderr; yields what to tell it: a text, and which part (0 to 1) is done.
+
+    There is silence where stderr is no terminal.
+    """
+    if quiet or not sys.stderr.isatty():
+        yield lambda what, done: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("", total=1.0)
+
+        def report(what: str, done: float) -> None:
+            progress.update(task, description=what, completed=done)
+
+        yield report
+
+
+def _tolerance(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
+    if not isfinite(value) or not 0 < value <= LARGEST:
+        raise argparse.ArgumentTypeError(f"must be above 0 and at most {LARGEST:g}, not {text}")
+    return value

@@ -1,0 +1,126 @@
+"""`decomp skeleton`: compute a model's skeleton, tell what it has, write it to files."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from decomp.skeleton.result import Certificate, RegionSkeleton, Skeleton
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    from decomp.cli.computing import add_options
+    from decomp.output import SUFFIXES
+
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "skeleton",
+        help="the exact interior skeleton (medial axis) of each region",
+        description="Compute the interior skeleton of a CSG model: sheets, seams, junctions and "
+        "reflexive curves, with a certificate of what was measured on it. Without -o it is only "
+        "told what it has.",
+    )
+    add_options(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="OUT",
+        help=f"file to write, ending in {', '.join(SUFFIXES)}; may be given several times",
+    )
+    parser.add_argument("--boundary", action="store_true", help="write the boundary's faces too")
+    parser.add_argument("--trims", action="store_true", help="write the trim surfaces too")
+    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    parser.add_argument(
+        "--certificate", action="store_true", help="print every figure of the certificate"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Check the outputs, compute, write, print."""
+    from decomp.cli.computing import computed
+    from decomp.output import suffix_of, write
+    from decomp.output.whole_file import check_target
+
+    for path in options.output:
+        suffix_of(path)
+        check_target(path)
+    skeleton = computed(options)
+    for path in options.output:
+        write(skeleton, path, boundary=options.boundary, trims=options.trims)
+    if options.json:
+        from decomp.output.as_json import contents
+
+        print(json.dumps(contents(skeleton), indent=1))
+    elif not options.quiet:
+        print("\n".join(as_text(skeleton, options.tolerance, options.certificate)))
+
+
+def as_text(skeleton: Skeleton, tolerance: float, figures: bool) -> list[str]:
+    """What a skeleton has, as lines for people."""
+    count = len(skeleton.regions)
+    lines = [f"model {skeleton.name}: {count} region{'' if count == 1 else 's'}"]
+    lines.append(f"  diagonal {skeleton.diagonal:.9g}")
+    for region in skeleton.regions:
+        lines += ["", *_region_text(region, tolerance, figures)]
+    return lines
+
+
+def _region_text(region: RegionSkeleton, tolerance: float, figures: bool) -> list[str]:
+    curves = [locus for locus in region.reflexive if locus.dimension == 1]
+    rows = [
+        ("sheets", len(region.sheets), f"area {sum(s.area for s in region.sheets):.9g}"),
+        ("seams", len(region.seams), f"length {sum(s.length for s in region.seams):.9g}"),
+        ("junctions", len(region.junctions), ""),
+        (
+            "reflexive",
+            len(region.reflexive),
+            f"length {sum(locus.length for locus in curves):.9g}" if curves else "",
+        ),
+        ("cells", len(region.cells), f"volume {sum(c.volume for c in region.cells):.9g}"),
+        ("Euler", region.certificate.euler, f"region {region.certificate.expected_euler}"),
+    ]
+    lines = [f"region {region.name}"]
+    lines += [f"  {name:<10} {number:>7}  {more}".rstrip() for name, number, more in rows]
+    lines.append(f"  {_verdict(region.certificate, tolerance)}")
+    if figures:
+        lines += _figures(region.certificate, tolerance)
+    return lines
+
+
+def _verdict(certificate: Certificate, tolerance: float) -> str:
+    from decomp.skeleton.certificate import shortcomings
+
+    short = shortcomings(certificate, tolerance)
+    if short:
+        return f"certificate FAILS: {', '.join(short)}"
+    return (
+        f"certificate holds: residual {certificate.residual:.1e}, "
+        f"chord error {certificate.chord_error:.1e}, coverage {certificate.coverage:.1e}"
+    )
+
+
+def _figures(certificate: Certificate, tolerance: float) -> list[str]:
+    from decomp.skeleton.certificate import limits, shortcomings
+
+    short = shortcomings(certificate, tolerance)
+    most = limits(tolerance)
+    lines = []
+    for field in fields(certificate):
+        name, value = field.name, getattr(certificate, field.name)
+        line = f"    {name:<14} {value:>10.3g}"
+        if name in most:
+            line += f"  at most {most[name]:.3g}"
+        elif name == "euler":
+            line += f"  must be {certificate.expected_euler}"
+        else:
+            continue
+        lines.append(line + ("  FAILS" if name in short else ""))
+    return lines

@@ -1,0 +1,58 @@
+"""Skeletons and cells to files. The suffix of a file's name tells its format.
+
+The writers are loaded when they are first used.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from decomp.errors import InputError
+
+if TYPE_CHECKING:
+    from decomp.skeleton.result import Skeleton
+
+SUFFIXES = (".vtu", ".ply", ".obj", ".json")
+CELL_FORMATS = ("stl", "obj", "ply")
+
+
+def suffix_of(path: str | Path) -> str:
+    """The suffix of a file that `write` can write.
+
+    Raises:
+        InputError: it is none of `SUFFIXES`.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        said = f"{suffix!r} is unknown" if suffix else "there is none"
+        raise InputError(f"{path}: {said} as a suffix for skeletons; use {', '.join(SUFFIXES)}")
+    return suffix
+
+
+def write(
+    skeleton: Skeleton, path: str | Path, *, boundary: bool = False, trims: bool = False
+) -> None:
+    """Write a skeleton to a file, whole or not at all.
+
+    Args:
+        skeleton: to write.
+        path: ends in one of `SUFFIXES`.
+        boundary: write the boundary's faces and edges too.
+        trims: write the trim surfaces too. JSON has no triangles and heeds neither.
+
+    Raises:
+        InputError: the suffix is unknown.
+        FileError: the file cannot be written.
+    """
+    from decomp.output import as_json, obj, ply, vtu
+    from decomp.output.elements import elements
+    from decomp.output.whole_file import write_whole
+
+    suffix = suffix_of(path)
+    if suffix == ".json":
+        write_whole(path, as_json.encoded(skeleton))
+        return
+    parts = elements(skeleton, boundary=boundary, trims=trims)
+    encode = {".vtu": vtu.encoded, ".ply": ply.encoded, ".obj": obj.encoded}[suffix]
+    write_whole(path, encode(parts))
