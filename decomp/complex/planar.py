@@ -13,14 +13,22 @@ from typing import Any
 
 import numpy as np
 import pythoncdt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import coo_array  # type: ignore[import-untyped]
+from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
 from decomp.complex.crossings import PLANE, Period, crossings
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints
 
-__all__ = ["PLANE", "Period", "SparseError", "Triangulation", "crossings", "triangulate"]
+__all__ = [
+    "PLANE",
+    "Period",
+    "SparseError",
+    "Triangulation",
+    "components",
+    "crossings",
+    "triangulate",
+]
 
 COPIES = (1, 2, 4)
 """Copies on either side of the middle one that are tried in turn."""
@@ -42,12 +50,18 @@ class Triangulation:
         triangles: (m, 3) indices of points, counterclockwise.
         component: (m,) which of the parts, into which the constraints cut the domain, a triangle
             belongs to, from 0; -1 outside all constraints (only in a domain without a period).
-        centroids: (m, 2), within the first period of a periodic domain.
+        corners: (m, 3, 2) coordinates of the corners; in a periodic domain unwrapped, so that a
+            triangle's corners are close together and its centroid is within the first period.
     """
 
     triangles: Ints
     component: Ints
-    centroids: Array
+    corners: Array
+
+    @property
+    def centroids(self) -> Array:
+        """(m, 2)."""
+        return np.asarray(self.corners.mean(axis=1))
 
     @property
     def components(self) -> int:
@@ -91,9 +105,7 @@ def _plane(points: Array, segments: Ints) -> Triangulation:
     if not len(triangles):
         raise GeometryError("all points of a plane domain lie on one line")
     part, loose = _parts(triangles, fixed, len(points))
-    return Triangulation(
-        triangles, _numbered(part, ~np.isin(part, loose)), points[triangles].mean(axis=1)
-    )
+    return Triangulation(triangles, _numbered(part, ~np.isin(part, loose)), points[triangles])
 
 
 def _periodic(points: Array, segments: Ints, period: Period, around: int) -> Triangulation:
@@ -130,9 +142,11 @@ def _periodic(points: Array, segments: Ints, period: Period, around: int) -> Tri
     inner = ~np.isin(part, outer)
     vertex, part, coordinates = vertex[inner], part[inner], coordinates[inner]
     _check(vertex, fixed, n, bool(cyclic.all()))
-    centroids = coordinates.mean(axis=1)
-    centroids = np.where(cyclic, np.mod(centroids, np.where(cyclic, base, 1.0)), centroids)
-    return Triangulation(vertex, _numbered(part, np.ones(len(part), dtype=np.bool_)), centroids)
+    turns = np.floor(coordinates.mean(axis=1) / np.where(cyclic, base, 1.0))
+    coordinates = (
+        coordinates - (np.where(cyclic, turns * np.where(cyclic, base, 0.0), 0.0))[:, None]
+    )
+    return Triangulation(vertex, _numbered(part, np.ones(len(part), dtype=np.bool_)), coordinates)
 
 
 def _guards(home: Array, base: Array) -> Array:
@@ -225,6 +239,18 @@ def _parts(triangles: Ints, fixed: Ints, n: int) -> tuple[Ints, Ints]:
     part = connected_components(links, directed=False)[1][: len(triangles)].astype(np.int64)
     loose = part[(passing & (count == 1)[edge]).any(axis=1)]
     return part, np.unique(loose)
+
+
+def components(triangles: Ints, segments: Ints, count: int) -> Ints:
+    """The part (m,) between segments that each triangle belongs to, from 0.
+
+    Args:
+        triangles: (m, 3) indices of points.
+        segments: (k, 2) across which triangles do not belong together.
+        count: number of points.
+    """
+    part, _ = _parts(triangles, segments, count)
+    return _numbered(part, np.ones(len(part), dtype=np.bool_))
 
 
 def _numbered(part: Ints, kept: Bools) -> Ints:
