@@ -10,6 +10,7 @@ import numpy as np
 from decomp.cells.surface import side_triangles
 from decomp.complex.errors_of import chord_error, flipped
 from decomp.complex.model import Complex
+from decomp.errors import GeometryError
 from decomp.sites.site import Site
 from decomp.skeleton.certificate_coverage import coverage
 from decomp.skeleton.certificate_evidence import Evidence, Worst
@@ -42,8 +43,12 @@ def certified(evidence: Evidence, balls: int = BALLS, seed: int = 0) -> Certifie
         seed: of the random points from which they start.
 
     Raises:
-        GeometryError: a ball does not come to rest.
+        GeometryError: a ball does not come to rest, or a vertex is not finite.
     """
+    if not np.isfinite(evidence.complex.points).all():
+        raise GeometryError(
+            f"the skeleton of region {evidence.boundary.name} has a point at no place"
+        )
     own = region_complex(evidence)
     where = {
         "residual": residual(evidence),

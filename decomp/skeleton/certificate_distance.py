@@ -9,7 +9,7 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.skeleton.compiled import inlined, scalar
 from decomp.vectors import Array, Ints

@@ -11,7 +11,7 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
 from decomp.sites import SiteIndex
 from decomp.sites.site import Site
-from decomp.skeleton.result import Cell, Reflexive, Sheet
+from decomp.skeleton.result import Cell, Reflexive, Sheet, Skeleton
 from decomp.vectors import Array, Ints
 
 
@@ -38,6 +38,23 @@ class Evidence:
     face_sides: tuple[tuple[tuple[int, int], ...], ...]
     cells: tuple[Cell, ...]
     face_cells: tuple[Cell, ...]
+
+    @staticmethod
+    def of(skeleton: Skeleton, index: SiteIndex, region: int) -> Evidence:
+        """What a finished skeleton's certificate can be computed from again."""
+        parts = skeleton.regions[region]
+        return Evidence(
+            index,
+            region,
+            skeleton.diagonal,
+            skeleton.complex,
+            skeleton.radius,
+            parts.sheets,
+            parts.reflexive,
+            parts.face_sides,
+            parts.cells,
+            parts.face_cells,
+        )
 
     @property
     def boundary(self) -> RegionBoundary:

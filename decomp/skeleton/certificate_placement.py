@@ -73,35 +73,51 @@ def _worst(evidence: Evidence, vertices: Ints, error: Array, sites: tuple[int, .
 def _sheet_error(evidence: Evidence, sheet: Sheet, vertices: Ints) -> Array:
     points = evidence.complex.points[vertices]
     normal = evidence.complex.patches[sheet.patch].surface.normal(points)
-    # the normal points from the first site's side to the second's, as its foot does
-    first = _distance(evidence, sheet.sites[0], points, -normal)
-    second = _distance(evidence, sheet.sites[1], points, normal)
+    # the normal points from the first site's foot to the second's
+    first, second = (
+        _distance(evidence, number, points, _feet(evidence, sheet, number, points, towards))
+        for number, towards in zip(sheet.sites, (-normal, normal), strict=True)
+    )
     off = np.abs(np.stack([first, second]) - evidence.radius[vertices]).max(axis=0)
     return np.asarray(np.maximum(off, np.abs(first - second)))
 
 
-def _distance(evidence: Evidence, number: int, points: Array, towards: Array) -> Array:
-    """Distance (k,) from a site whose foot lies in direction `towards` (k, 3) from each point."""
-    boundary, site = evidence.boundary, evidence.sites[number]
-    feet = points
-    if site.kind is SiteKind.EDGE:
-        feet = _edge_seeds(boundary.edges[site.index].samples, points, towards)
-    which = np.full(len(points), number, dtype=np.int64)
-    return site_fields(boundary, evidence.sites, which, points, feet).distance
+def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards: Array) -> Array:
+    """Where a site's feet (k, 3) are searched, on the side `towards` of a sheet; edges need this.
+
+    A sheet's tangent plane is the mid-plane of the feet of its point, so one is the mirror image of
+    the other, and the nearest-site query gives one. At a seam it may give a foot on a third site:
+    there the edge's nearest sample is taken.
+    """
+    site = evidence.sites[number]
+    if site.kind is not SiteKind.EDGE:
+        return points
+    found = evidence.index.nearest(points)
+    across = np.asarray(dot(found.foot - points, towards))[:, None]
+    feet = np.where(across > 0, found.foot, found.foot - 2 * across * towards)
+    others = np.flatnonzero(~np.isin(found.site, sheet.sites))
+    samples = evidence.boundary.edges[site.index].samples
+    feet[others] = _nearest_samples(samples, points[others], towards[others])
+    return feet
 
 
-def _edge_seeds(samples: Array, points: Array, towards: Array) -> Array:
-    """The nearest sample (k, 3) of an edge on the side of each point where its foot lies."""
+def _nearest_samples(samples: Array, points: Array, towards: Array) -> Array:
+    """The nearest of some samples (s, 3) to each point that lies to its side `towards`."""
     result = np.empty(points.shape)
     for start in range(0, len(points), BLOCK):
         block = slice(start, start + BLOCK)
         away = samples[None] - points[block, None]
-        square = dot(away, away)
         behind = np.asarray(dot(away, towards[block, None]) < 0)
         behind &= ~behind.all(axis=1, keepdims=True)
-        hidden = np.where(behind, np.inf, square)
-        result[block] = samples[np.argmin(hidden, axis=1)]
+        nearest = np.argmin(np.where(behind, np.inf, dot(away, away)), axis=1)
+        result[block] = samples[nearest]
     return result
+
+
+def _distance(evidence: Evidence, number: int, points: Array, feet: Array) -> Array:
+    """Distance (k,) of points from a site with feet nearby."""
+    which = np.full(len(points), number, dtype=np.int64)
+    return site_fields(evidence.boundary, evidence.sites, which, points, feet).distance
 
 
 def _locus_vertices(evidence: Evidence, locus: Reflexive) -> Ints:
@@ -113,7 +129,7 @@ def _locus_vertices(evidence: Evidence, locus: Reflexive) -> Ints:
 def _locus_error(evidence: Evidence, locus: Reflexive, vertices: Ints) -> Array:
     points = evidence.complex.points[vertices]
     site = evidence.sites[locus.site]
-    distance = np.abs(_distance(evidence, locus.site, points, np.zeros(points.shape)))
+    distance = np.abs(_distance(evidence, locus.site, points, points))
     off = _from_locus(evidence.boundary, site, points)
     return np.maximum(off, np.abs(distance - evidence.radius[vertices]))
 

@@ -8,15 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from decomp.complex.model import Complex
+import decomp
+from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.errors import GeometryError
+from decomp.sites.site import SiteKind
 from decomp.skeleton.certificate import certified, explained, shortcomings
 from decomp.skeleton.certificate_coverage import boundary_samples, random_points
 from decomp.skeleton.certificate_distance import triangle_distance, triangle_tree
 from decomp.skeleton.certificate_evidence import Evidence
 from decomp.skeleton.certificate_placement import residual
-from decomp.skeleton.result import Certificate
+from decomp.skeleton.result import Certificate, Sheet
 from decomp.vectors import Array
-from tests.skeleton_fixtures import block, capsule
+from tests.skeleton_fixtures import Flat, block, capsule
+from tests.solids import SOLIDS
 
 BALLS = 500
 TOLERANCE = 5e-4
@@ -78,11 +82,31 @@ def test_a_moved_boundary_vertex_is_noticed() -> None:
     assert "residual" in short(with_points(capsule().evidence, points))
 
 
-def test_a_vertex_that_is_no_number_is_noticed() -> None:
+def test_a_vertex_that_is_no_number_is_refused() -> None:
     points = block().evidence.complex.points.copy()
     points[-1] = np.nan
     evidence = with_points(block().evidence, points)
     assert residual(evidence).value == np.inf
+    with pytest.raises(GeometryError, match="no place"):
+        certified(evidence, BALLS)
+
+
+def test_a_sheet_of_an_edge_with_itself() -> None:
+    """Under a thin branch on a thicker run, points of the plane y = 0 have two feet on one edge."""
+    tee = decomp.Geometry(SOLIDS["unequal tee"].make())
+    edge = next(k for k, s in enumerate(tee.sites) if s.region == 0 and s.kind is SiteKind.EDGE)
+    rng = np.random.default_rng(0)
+    points = np.stack([rng.uniform(-0.55, 0.55, 600), np.zeros(600), rng.uniform(0, 0.8, 600)], 1)
+    found = tee.nearest(points)
+    both = (found.site == edge) & (np.abs(found.foot[:, 1]) > 1e-6)
+    points, radius = points[both], found.distance[both]
+    assert len(points) > 100
+    triangles = np.arange(len(points) // 3 * 3).reshape(-1, 3)
+    patch = Patch(PatchKind.SHEET, Flat(np.zeros(3), np.array([0, 1.0, 0])), triangles)
+    sheet = Sheet((edge, edge), None, 0, 0.0, (0.0, 0.0))
+    mesh = Complex(points, (patch,), ())
+    evidence = Evidence(tee.index, 0, tee.diagonal, mesh, radius, (sheet,), (), ((),) * 5, (), ())
+    assert residual(evidence).value < 1e-15
 
 
 def test_a_ball_too_large_is_noticed() -> None:
