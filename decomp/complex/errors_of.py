@@ -29,6 +29,21 @@ INSIDE = np.array(
 Corners themselves are left out: the surface may have no normal there, as a cone at its apex.
 """
 
+_FIT = np.linalg.pinv(np.roll(INSIDE, -1, axis=1) * np.roll(INSIDE, 1, axis=1))
+
+
+def _along() -> Array:
+    """Displacements at points of an edge (s, 3) from those at 1/4, 3/4 and 1/2.
+
+    They are polynomials of degree 4 that vanish at the ends.
+    """
+    t, at = np.linspace(0.125, 0.875, 13), np.array([0.25, 0.75, 0.5])
+    basis, known = (np.stack([x * (1 - x) * x**k for k in range(3)], axis=1) for x in (t, at))
+    return np.asarray(basis @ np.linalg.inv(known))
+
+
+_ALONG = _along()
+
 UPRIGHT = 4
 """At so many of the first points of `INSIDE` normals are compared."""
 
@@ -58,10 +73,28 @@ def triangle_errors(elements: Elements, numbers: Ints, corners: Array) -> tuple[
     flat = np.einsum("sj,kjx->skx", INSIDE, corners)
     points = flat.reshape(-1, 3)
     placed = elements.place(np.tile(numbers, len(INSIDE)), points)
-    error = norm(placed - points).reshape(len(INSIDE), count).max(axis=0)
+    away = (placed - points).reshape(len(INSIDE), count, 3)
+    own = triangle_normals(corners)
+    error = np.maximum(norm(away).max(axis=0), _greatest(dot(away, own)))
     normals = elements.normal(np.tile(numbers, UPRIGHT), placed[: UPRIGHT * count])
-    upright = dot(normals.reshape(UPRIGHT, count, 3), triangle_normals(corners)).min(axis=0)
+    upright = dot(normals.reshape(UPRIGHT, count, 3), own).min(axis=0)
     return error, upright
+
+
+def _greatest(heights: Array) -> Array:
+    """The greatest height (k,) inside triangles over which a surface has given heights (7, k).
+
+    The heights at `INSIDE` are fitted by a sum of q_ij b_i b_j in barycentric coordinates b, which
+    vanishes at the corners. It is stationary where b_i is proportional to
+    q_jk (q_ij + q_ik - q_jk); with squared sides for q, that is the circumcentre.
+    """
+    p, q, r = _FIT @ heights
+    b = np.stack([p * (q + r - p), q * (r + p - q), r * (p + q - r)])
+    total = b.sum(axis=0)
+    inside = (b * np.sign(total) > 0).all(axis=0)
+    b = b / np.where(inside, total, 1.0)
+    value = np.abs(p * b[1] * b[2] + q * b[2] * b[0] + r * b[0] * b[1])
+    return np.asarray(np.where(inside, value, 0.0))
 
 
 def edge_errors(
@@ -78,8 +111,9 @@ def edge_errors(
     if len(good):
         a, b = ends[good, 0], ends[good, 1]
         points = np.concatenate([0.75 * a + 0.25 * b, 0.25 * a + 0.75 * b])
-        quarter = elements.gap(np.tile(numbers[good], 2), points).reshape(2, -1).max(axis=0)
-        error[good] = np.maximum(error[good], quarter)
+        away = elements.place(np.tile(numbers[good], 2), points) - points
+        away = np.stack([*away.reshape(2, -1, 3), placed[good] - middle[good]])
+        error[good] = norm(np.einsum("st,tkx->skx", _ALONG, away)).max(axis=0)
     return error, placed
 
 

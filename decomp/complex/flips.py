@@ -73,8 +73,8 @@ def _round(mesh: Mesh) -> int:
     use = mesh.fresh[h1 // 3] | mesh.fresh[h2 // 3]
     able, h1, h2 = able[use], h1[use], h2[use]
     flat = mesh.triangles.ravel()
-    a, b = flat[h1], flat[_next(h1)]
-    c, d = flat[_next(_next(h1))], flat[_next(_next(h2))]
+    a, b = flat[h1], flat[next_half(h1)]
+    c, d = flat[next_half(next_half(h1))], flat[next_half(next_half(h2))]
     pairs = pair_keys(c, d)
     _, exists = found(np.unique(edges.keys & PAIR), pairs)
     use = (flat[h2] == b) & (c != d) & ~exists
@@ -133,7 +133,7 @@ def _round(mesh: Mesh) -> int:
     return len(k)
 
 
-def _next(half: Ints) -> Ints:
+def next_half(half: Ints) -> Ints:
     """The next side of the same triangle."""
     return np.asarray(np.where(half % 3 == 2, half - 2, half + 1))
 

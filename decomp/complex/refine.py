@@ -14,19 +14,24 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from decomp.complex.flips import flip
+from decomp.complex.flips import UPRIGHT, flip
 from decomp.complex.model import Complex
+from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
-from decomp.complex.refine_split import split_inside, split_lines, split_twins
+from decomp.complex.refine_split import split_inside, split_leaning, split_lines, split_twins
 from decomp.errors import GeometryError
 from decomp.vectors import Ints, place
 
 Progress: TypeAlias = Callable[[int], None]
 
-MARGIN: Final = 0.95
+MARGIN: Final = 0.98
 """Errors are kept this much below the tolerance, as they are measured at a few points only."""
 
-ROUNDS: Final = 400
+PATIENCE: Final = 12
+"""So often triangles that only lean, or patches that touch, are split."""
+
+FOLDED: Final = -0.5
+"""A triangle whose normal has less than this inner product with its surface's is turned over."""
 
 
 def refine(given: Complex, tolerance: float, progress: Progress | None = None) -> Complex:
@@ -54,15 +59,30 @@ def refined(
     """
     mesh = Mesh(given, MARGIN * tolerance)
     _check(mesh)
-    for _ in range(ROUNDS):
+    patience = PATIENCE
+    while True:
         flip(mesh)
         if progress is not None:
             progress(len(mesh.triangles))
-        if not (split_lines(mesh) or split_inside(mesh) or split_twins(mesh)):
-            return mesh.result()
-    worst = np.nanargmax(mesh.error)
-    centre = mesh.points[mesh.triangles[worst]].mean(axis=0)
-    raise GeometryError(f"the tolerance cannot be reached at {place(centre)}")
+        if split_lines(mesh) or split_inside(mesh):
+            continue
+        patience -= 1
+        _check_folds(mesh, patience)
+        if not (split_leaning(mesh) or split_twins(mesh)):
+            break
+    collapse(mesh)
+    if progress is not None:
+        progress(len(mesh.triangles))
+    return mesh.result()
+
+
+def _check_folds(mesh: Mesh, patience: int) -> None:
+    """Splitting helps a triangle that leans; one that is folded, or leans on, is an error."""
+    least = int(np.argmin(mesh.upright)) if len(mesh.upright) else -1
+    if least >= 0 and mesh.upright[least] < (FOLDED if patience > 0 else UPRIGHT):
+        name = mesh.elements.names[int(mesh.surface[least])]
+        at = place(mesh.points[mesh.triangles[least]].mean(axis=0))
+        raise GeometryError(f"a triangle stays folded on the {name} at {at}")
 
 
 def _check(mesh: Mesh) -> None:

@@ -24,36 +24,25 @@ def split_lines(mesh: Mesh) -> int:
 
 
 def split_inside(mesh: Mesh) -> int:
-    """Split an edge of each triangle that is too far from its surface, leans, or has a bad edge.
-
-    Where an edge is too far off the worst one is split, else the longest; preferably one inside the
-    patch, and if there is none the triangle itself, at its centre.
+    """Split an edge of each triangle that is too far from its surface, or has an edge that is.
 
     Returns:
         How many edges and triangles were split.
     """
     edges = mesh.edges
-    sides = edges.of_half[: 3 * len(mesh.triangles)].reshape(-1, 3)
-    error = edges.error[sides]
-    error[(edges.owner < 0)[sides]] = 0.0
-    bad_side = error.max(axis=1, initial=0.0) > mesh.limit
-    bad = bad_side | (mesh.error > mesh.limit) | (mesh.upright < UPRIGHT)
-    t = np.flatnonzero(bad)
-    if len(t) == 0:
-        return 0
-    ends = mesh.points[edges.ends[sides[t]]]
-    length = norm(ends[:, :, 1] - ends[:, :, 0])
-    inside = (edges.owner >= 0)[sides[t]]
-    wanted = np.where(inside, length, 0.3 * length)
-    score = np.where(bad_side[t][:, None], error[t], wanted)
-    k = np.argmax(score, axis=1)
-    alone = ~inside.any(axis=1)
-    _check_size(mesh, t, length.max(axis=1))
-    if alone.any():
-        return _split_triangles(mesh, t[alone])
-    edge, first = np.unique(sides[t, k], return_index=True)
-    weight = np.maximum(edges.error[edge], mesh.error[t[first]])
-    return _split_edges(mesh, edge, weight)
+    bad = (mesh.error > mesh.limit) | _worst_sides(mesh)[0]
+    small = bad & (_lengths(mesh).max(axis=1) < 0.1 * mesh.limit)
+    if small.any():
+        t = int(np.flatnonzero(small)[0])
+        centre = mesh.points[mesh.triangles[t]].mean(axis=0)
+        name = mesh.elements.names[int(mesh.surface[t])]
+        raise GeometryError(f"{name} is torn or too crooked at {place(centre)}")
+    return _split_some(mesh, np.flatnonzero(bad))
+
+
+def split_leaning(mesh: Mesh) -> int:
+    """Split an edge of each triangle that leans; how many."""
+    return _split_some(mesh, np.flatnonzero(mesh.upright < UPRIGHT))
 
 
 def split_twins(mesh: Mesh) -> int:
@@ -96,14 +85,39 @@ def _middle(mesh: Mesh, edge: int) -> str:
     return place(mesh.points[mesh.edges.ends[edge]].mean(axis=0))
 
 
-def _check_size(mesh: Mesh, triangles: Ints, longest: Array) -> None:
-    """No triangle below the chord tolerance can need a split, unless it is folded."""
-    small = np.flatnonzero(longest < 0.1 * mesh.limit)
-    if len(small):
-        t = triangles[small[0]]
-        centre = mesh.points[mesh.triangles[t]].mean(axis=0)
-        name = mesh.elements.names[int(mesh.surface[t])]
-        raise GeometryError(f"{name} stays folded or torn at {place(centre)}")
+def _lengths(mesh: Mesh) -> Array:
+    """The sides (m, 3) of all triangles."""
+    corners = mesh.points[mesh.triangles]
+    return norm(np.roll(corners, -1, axis=1) - corners)
+
+
+def _worst_sides(mesh: Mesh) -> tuple[Bools, Ints]:
+    """Whether a triangle has a bad edge inside its patch, and which of its sides is the worst."""
+    edges = mesh.edges
+    sides = edges.of_half[: 3 * len(mesh.triangles)].reshape(-1, 3)
+    error = np.where((edges.owner < 0)[sides], 0.0, edges.error[sides])
+    return error.max(axis=1, initial=0.0) > mesh.limit, error.argmax(axis=1)
+
+
+def _split_some(mesh: Mesh, t: Ints) -> int:
+    """Split an edge of each of the triangles, as far as they do not share it.
+
+    Where an edge is too far off the worst one is split, else the longest; preferably one inside
+    the patch, and if there is none the triangle itself, at its centre.
+    """
+    if len(t) == 0:
+        return 0
+    edges = mesh.edges
+    sides = edges.of_half[: 3 * len(mesh.triangles)].reshape(-1, 3)[t]
+    inside = (edges.owner >= 0)[sides]
+    alone = ~inside.any(axis=1)
+    if alone.any():
+        return _split_triangles(mesh, t[alone])
+    bad, worst = _worst_sides(mesh)
+    longest = np.where(inside, 1.0, 0.3) * _lengths(mesh)[t]
+    k = np.where(bad[t], worst[t], longest.argmax(axis=1))
+    edge, first = np.unique(sides[np.arange(len(t)), k], return_index=True)
+    return _split_edges(mesh, edge, np.maximum(edges.error[edge], mesh.error[t[first]]))
 
 
 def _split_edges(mesh: Mesh, edge: Ints, weight: Array) -> int:
@@ -126,7 +140,7 @@ def _split_edges(mesh: Mesh, edge: Ints, weight: Array) -> int:
         curve[np.maximum(last - inner, 0)] if len(curve) else -1,
         mesh.surface[np.minimum(last // 3, len(mesh.triangles) - 1)] if inner else -1,
     )
-    points = edges.middle[edge[some]]
+    points = _cuts(mesh, edge[some], element)
     _check_new(mesh, element, points, mesh.points[edges.ends[edge[some]]])
     new[some] = mesh.add(points)
 
@@ -143,6 +157,42 @@ def _split_edges(mesh: Mesh, edge: Ints, weight: Array) -> int:
     mesh.path = np.insert(mesh.path, where + 1, vertex[~of_triangle])
     mesh.connect()
     return len(some)
+
+
+def _cuts(mesh: Mesh, edge: Ints, element: Ints) -> Array:
+    """Where edges are split: at the middle, or off it if an odd number of parts is needed.
+
+    With chord error e and length l the edge is taken for an arc of the angle 4 atan(2 e / l); n
+    equal parts of it are within the limit, and the cut is made after n // 2 of them.
+    """
+    edges = mesh.edges
+    ends = mesh.points[edges.ends[edge]]
+    length = norm(ends[:, 1] - ends[:, 0])
+    points = edges.middle[edge].copy()
+    angle = np.minimum(4 * np.arctan2(2 * edges.error[edge], length), 0.9 * np.pi)
+    radius = length / (2 * np.sin(np.maximum(angle, 1e-9) / 2))
+    wanted = mesh.limit / _bulge(mesh)[edge]
+    parts = np.ceil(angle / (2 * np.arccos(np.maximum(1 - wanted / radius, 0.0))) - 0.02)
+    odd = np.flatnonzero((parts > 2) & (parts % 2 == 1))
+    turn = ((parts[odd] // 2) / parts[odd] - 0.5) * angle[odd]
+    along = (0.5 + np.tan(turn) / (2 * np.tan(angle[odd] / 2)))[:, None]
+    chord = (1 - along) * ends[odd, 0] + along * ends[odd, 1]
+    points[odd] = mesh.elements.place(element[odd], chord)
+    return points
+
+
+def _bulge(mesh: Mesh) -> Array:
+    """For each edge, how much larger errors inside its triangles are than on their sides.
+
+    It is 1 on developable and saddle surfaces, 4/3 for equilateral triangles on a sphere.
+    """
+    edges = mesh.edges
+    of_half = edges.of_half[: 3 * len(mesh.triangles)]
+    side = edges.error[of_half].reshape(-1, 3).max(axis=1)
+    ratio = np.clip(mesh.error / np.maximum(side, 1e-3 * mesh.limit), 1.0, 1.5)
+    bulge = np.ones(len(edges.keys))
+    np.maximum.at(bulge, of_half, np.repeat(ratio, 3))
+    return bulge
 
 
 def _split_triangles(mesh: Mesh, t: Ints) -> int:

@@ -195,3 +195,16 @@ def half_discs(count: int = 3) -> Complex:
         patches.append(face(Plane(O3, normal), [[0, 1, tip]]))
         lines.append(edge(Round(O3, normal, 1.0), [0, tip, 1]))
     return Complex(np.array(points), tuple(patches), tuple(lines))
+
+
+def lens() -> Complex:
+    """Two caps of spheres and a disc between them on one circle, all three with one diagonal."""
+    points = ring(4, 1.0, 0.0)
+    down, up = np.array([0, 0, -1.0]), np.array([0, 0, 1.0])
+    two = [[0, 1, 2], [0, 2, 3]]
+    patches = (
+        face(Sphere(down, np.sqrt(2.0)), two),
+        face(Plane(O3, Z), two),
+        face(Sphere(up, np.sqrt(2.0)), two, -1.0),
+    )
+    return Complex(points, patches, (circle_line(0, 4, 1.0, 0.0),))
