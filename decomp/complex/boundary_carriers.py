@@ -1,0 +1,204 @@
+"""Triangles of all faces on one carrier, with as few points inside as its bending needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+
+from decomp.carriers import Cone, Plane, Sphere, Torus
+from decomp.complex.boundary_classes import FoldedError, Sides, sides_of
+from decomp.complex.boundary_layout import Layout
+from decomp.complex.boundary_samples import TURN, Samples
+from decomp.complex.planar import SparseError, triangulate
+from decomp.errors import GeometryError
+from decomp.vectors import Array, Bools, Ints, dot, frame, norm, place
+
+ROUNDS = 40
+CLEARANCE = 0.35
+"""Points inside keep this part of their spacing away from samples of pieces."""
+
+
+@dataclass(frozen=True, eq=False)
+class CarrierMesh:
+    """Triangles of the faces on a carrier.
+
+    Args:
+        layout: of the carrier.
+        vertices: (v,) indices of samples on the carrier.
+        interior: (q, 3) further points, exactly on it.
+        triangles: (m, 3) indices into vertices followed by interior, counterclockwise seen from
+            the carrier's outside.
+        midpoints: (m, 3, 3) points on the carrier halfway along the sides, corner k to k + 1.
+        sides: what lies on either side of each triangle.
+    """
+
+    layout: Layout
+    vertices: Ints
+    interior: Array
+    triangles: Ints
+    midpoints: Array
+    sides: Sides
+
+
+def carrier_mesh(
+    layout: Layout, samples: Samples, interior: Array | None = None, turn: float = TURN
+) -> CarrierMesh:
+    """Triangulate the faces on a carrier.
+
+    Args:
+        layout: of the carrier.
+        samples: of all pieces, not crossing each other on it.
+        interior: (q, 3) points to begin with, by default chosen.
+        turn: the most (radians) that normals differ along an edge that is not of a piece.
+
+    Raises:
+        FoldedError: the segments lie otherwise than their curves; more samples help.
+    """
+    vertices = layout.vertices(samples)
+    known = samples.points[vertices]
+    local = np.full(len(samples.points), -1, dtype=np.int64)
+    local[vertices] = np.arange(len(vertices))
+    segments, names = layout.segments(samples)
+    segments = local[segments]
+    extra = _first_points(layout, known) if interior is None else interior
+    for attempt in range(ROUNDS):
+        try:
+            triangles, corners = _triangulated(layout, np.concatenate([known, extra]), segments)
+        except SparseError:
+            if not isinstance(layout.carrier, Torus) or attempt > 3:
+                raise
+            extra = _torus_grid(layout.carrier, known, 2**attempt)
+            continue
+        sides = sides_of(layout, triangles, segments, names, len(known) + len(extra))
+        points = np.concatenate([known, extra])
+        kept = sides.filled
+        triangles, corners = triangles[kept], corners[kept]
+        sides = Sides(sides.outer[kept], sides.inner[kept])
+        midpoints = _midpoints(layout, points, triangles, corners)
+        more = _bent(layout, points, triangles, midpoints, segments, turn)
+        if not len(more):
+            used: Bools = np.isin(np.arange(len(extra)), triangles - len(known))
+            number = np.concatenate([np.arange(len(known)), len(known) + np.cumsum(used) - 1])
+            return CarrierMesh(layout, vertices, extra[used], number[triangles], midpoints, sides)
+        extra = np.concatenate([extra, more])
+    raise GeometryError(
+        f"the faces on the {layout.carrier.kind} near {place(points[0])} could not be triangulated"
+    )
+
+
+def _triangulated(layout: Layout, points: Array, segments: Ints) -> tuple[Ints, Array]:
+    """All triangles (m, 3) and the coordinates (m, 3, 2) of their corners.
+
+    The first of the points beyond the samples is a sphere's pole, where there is one; its
+    coordinates are not finite.
+    """
+    if layout.pole is None:
+        made = triangulate(layout.chart.to_plane(points), segments, layout.chart.period)
+        return made.triangles, made.corners
+    at = int(np.argmin(norm(points - layout.pole)))
+    flat = np.delete(np.arange(len(points)), at)
+    uv = np.full((len(points), 2), np.inf)
+    uv[flat] = layout.chart.to_plane(points[flat])
+    number = np.full(len(points), -1, dtype=np.int64)
+    number[flat] = np.arange(len(flat))
+    made = triangulate(uv[flat], number[segments])
+    triangles = flat[made.triangles]
+    # what lies beyond the border is seen from the pole
+    n = len(points)
+    ends = np.roll(triangles, -1, axis=1)
+    forth, back = (triangles * n + ends).ravel(), (ends * n + triangles).ravel()
+    border = forth[~np.isin(forth, back)]
+    fan = np.stack([border % n, border // n, np.full(len(border), at)], axis=1)
+    triangles = np.concatenate([triangles, fan])
+    return triangles, uv[triangles]
+
+
+def _first_points(layout: Layout, known: Array) -> Array:
+    """Points without which a sphere has no triangles; a sphere's pole is the first."""
+    carrier = layout.carrier
+    if isinstance(carrier, Torus) and not layout.pieces:
+        return _torus_grid(carrier, known, 1)
+    if not isinstance(carrier, Sphere) or layout.pole is None:
+        return np.empty((0, 3))
+    pole = carrier.normal(layout.pole)
+    x, y = frame(pole)
+    around = carrier.centre + carrier.radius * np.array([-pole, x, y, -x, -y])
+    return np.concatenate(
+        [layout.pole[None], _clear(around, known, CLEARANCE * 1.5 * carrier.radius)]
+    )
+
+
+def _torus_grid(torus: Torus, known: Array, finer: int) -> Array:
+    """A grid on a torus without the points close to given ones."""
+    tube = 8 * finer
+    around = tube * max(1, ceil(torus.major / (3 * torus.minor)))
+    u, v = (2 * np.pi * np.arange(n) / n for n in (around, tube))
+    # every second ring is turned by half a step, so that triangles come out even
+    angle = u[:, None] + np.where(np.arange(tube) % 2, np.pi / around, 0.0)
+    grid = torus.point(angle, np.broadcast_to(v, angle.shape), *frame(torus.axis)).reshape(-1, 3)
+    return _clear(grid, known, CLEARANCE * 2 * np.pi * torus.minor / tube)
+
+
+def _clear(points: Array, known: Array, gap: float) -> Array:
+    """Those points that keep a distance from all known ones."""
+    if not len(known):
+        return points
+    nearest = np.array([norm(known - p).min() for p in points])
+    return np.asarray(points[nearest >= gap])
+
+
+def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -> Array:
+    """Points (m, 3, 3) on the carrier halfway along the sides of triangles, as drawn."""
+    middle = (corners + np.roll(corners, -1, axis=1)) / 2
+    at_pole = ~np.isfinite(middle).all(axis=2)
+    result = layout.chart.to_space(np.where(at_pole[..., None], 0.0, middle).reshape(-1, 2))
+    result = layout.carrier.project(result).reshape(-1, 3, 3)
+    if at_pole.any():
+        both = points[triangles] + points[np.roll(triangles, -1, axis=1)]
+        assert isinstance(layout.carrier, Sphere) and layout.pole is not None
+        centre, radius = layout.carrier.centre, layout.carrier.radius
+        away = both[at_pole] / 2 - centre
+        # the point opposite the pole: any way round
+        x, _ = frame(layout.carrier.normal(layout.pole))
+        away = np.where(norm(away)[:, None] > 1e-6 * radius, away, x)
+        result[at_pole] = layout.carrier.project(centre + radius * away / norm(away)[:, None])
+    return np.asarray(result)
+
+
+def _bent(
+    layout: Layout, points: Array, triangles: Ints, midpoints: Array, segments: Ints, turn: float
+) -> Array:
+    """Midpoints of the edges along which normals turn too far, the worst first, not too close."""
+    if isinstance(layout.carrier, Plane) or not len(triangles):
+        return np.empty((0, 3))
+    n = len(points)
+    ends = np.roll(triangles, -1, axis=1)
+    low, high = np.minimum(triangles, ends).ravel(), np.maximum(triangles, ends).ravel()
+    keys, first = np.unique(low * n + high, return_index=True)
+    walls = segments.min(axis=1) * n + segments.max(axis=1)
+    first = first[~np.isin(keys, walls)]
+    a, b = points[low[first]], points[high[first]]
+    angle = np.arccos(np.clip(dot(layout.carrier.normal(a), layout.carrier.normal(b)), -1, 1))
+    if isinstance(layout.carrier, Cone):
+        reach = 1e-9 * norm(a - b)
+        tip = layout.carrier.apex
+        angle = np.where((norm(a - tip) <= reach) | (norm(b - tip) <= reach), 0.0, angle)
+    bad = first[angle > turn]
+    order = np.argsort(-angle[angle > turn], kind="stable")
+    half = norm(points[low] - points[high])[bad[order]] / 2
+    return spread(midpoints.reshape(-1, 3)[bad[order]], half)
+
+
+def spread(points: Array, gaps: Iterable[float]) -> Array:
+    """Points, each left out if it is nearer than its gap to one taken before."""
+    taken: list[Array] = []
+    for point, gap in zip(points, gaps, strict=True):
+        if not taken or float(norm(np.array(taken) - point).min()) >= gap:
+            taken.append(point)
+    return np.array(taken).reshape(-1, 3)
+
+
+__all__ = ["CarrierMesh", "FoldedError", "carrier_mesh", "spread"]
