@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from decomp.complex.model import LineKind
-from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeleton.balls import inscribed_balls
@@ -15,11 +15,11 @@ from decomp.skeleton.curve_elements import LocusCurve, RayCurve, SeamCurve, Trim
 from decomp.skeleton.fields import site_fields
 from decomp.skeleton.graph import Seam
 from decomp.skeleton.incidence import Incidence
-from decomp.skeleton.normal_curves import reflex_rays
+from decomp.skeleton.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.skeleton.pieces import CurvePiece
 from decomp.skeleton.reflexive import ReflexivePart, reflexive_gap
-from decomp.skeleton.trims import TrimPiece, solve_radius
-from decomp.vectors import Array, Ints, norm, place
+from decomp.skeleton.trims import TrimPiece, TrimScanner, solve_radius
+from decomp.vectors import Array, Ints, norm
 
 ALONG = 16
 """Points by which a piece of trim or reflexive locus is first known."""
@@ -90,14 +90,16 @@ def _feet(incidence: Incidence, sites: tuple[int, ...], points: Array) -> Array:
 
 
 def trim_pieces(
-    index: SiteIndex, incidence: Incidence, trims: Sequence[TrimPiece]
+    index: SiteIndex, incidence: Incidence, curves: Sequence[NormalCurve]
 ) -> list[CurvePiece]:
-    """Trims as pieces, those on reflexive loci left out."""
+    """The trims over normal curves as pieces, those on reflexive loci left out."""
     found = []
-    for trim in trims:
-        piece = _trim_piece(index, incidence, trim)
-        if piece is not None:
-            found.append(piece)
+    scanner = TrimScanner(index, incidence)
+    for number, curve in enumerate(curves):
+        for trim in scanner.pieces([curve]):
+            piece = _trim_piece(index, incidence, trim)
+            if piece is not None:
+                found.append(replace(piece, over=frozenset({number})))
     return found
 
 
@@ -170,10 +172,8 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
             if face in boundary.edges[e].faces and e in incidence.edge_site
         ]
         foot = site_fields(boundary, incidence.sites, which, balls.centre, balls.foot).foot[0]
-        end = point + radius * direction
         exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)
         points = point + (exact / radius) * ray[:, None] * direction
-        del end
         a, b = sorted(edges)
         found.append(
             CurvePiece(
@@ -191,8 +191,6 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
 def _ray_end(
     incidence: Incidence, point: Array, direction: Array, far: int, foot: Array, guess: float
 ) -> float:
-    from decomp.skeleton.normal_curves import VertexRay
-
     ray = VertexRay(0.0, guess, False, (far, far), point, direction)
     at = np.array([0.0])
     return float(solve_radius(incidence, ray, far, at, foot[None], np.array([guess]))[0])
@@ -215,8 +213,3 @@ def reflexive_pieces(parts: Sequence[ReflexivePart]) -> list[CurvePiece]:
             CurvePiece(LineKind.REFLEXIVE, (part.sites,), LocusCurve(part.locus), points, touched)
         )
     return found
-
-
-def lost(point: Array, what: str) -> GeometryError:
-    """An error that names a place."""
-    return GeometryError(f"{what} near {place(point)}")

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.model import CurveElement, LineKind
-from decomp.vectors import Array, Bools, norm
+from decomp.vectors import Array, norm
 
 WELD = 1e-7
 """Nodes nearer to each other than this part of the region's size are one."""
@@ -37,6 +37,7 @@ class CurvePiece:
         feet: (m, 3), of the contacts at the middle point.
         ends: the nodes where it starts and ends, None if it is closed without a node.
         pairs: the sites of each sheet that meets it there.
+        over: numbers of the normal curves whose trims run along it.
     """
 
     kind: LineKind
@@ -46,6 +47,7 @@ class CurvePiece:
     feet: Array
     ends: tuple[int, int] | None = None
     pairs: tuple[tuple[int, int], ...] = ()
+    over: frozenset[int] = frozenset()
 
     @property
     def middle(self) -> Array:
@@ -179,7 +181,11 @@ def _merged(pieces: Sequence[CurvePiece], size: float) -> list[CurvePiece]:
         key = tuple(sorted(piece.ends)) if piece.ends else ()
         for other in known.get(key, []):
             if _coincide(kept[other], piece, size):
-                kept[other] = replace(kept[other], contacts=_joint(kept[other], piece))
+                kept[other] = replace(
+                    kept[other],
+                    contacts=_joint(kept[other], piece),
+                    over=kept[other].over | piece.over,
+                )
                 break
         else:
             known.setdefault(key, []).append(len(kept))
@@ -207,8 +213,3 @@ def _joint(a: CurvePiece, b: CurvePiece) -> tuple[Contact, ...]:
                 result[k] = tuple(sorted(set(known) | set(contact)))
                 break
     return tuple(result)
-
-
-def open_mask(pieces: Sequence[CurvePiece]) -> Bools:
-    """Which pieces have ends."""
-    return np.array([piece.ends is not None for piece in pieces], dtype=np.bool_)

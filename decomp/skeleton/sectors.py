@@ -18,7 +18,7 @@ from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.skeleton.incidence import Incidence
 from decomp.skeleton.pieces import CurvePiece
-from decomp.vectors import Array, dot, frame, norm, place
+from decomp.vectors import Array, frame, norm, place
 
 RING = 360
 REACH = 2e-3
@@ -106,8 +106,3 @@ def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pa
         if float(norm(a[1] - b[1])) > JUMP * radius:
             pairs.append(_pair(int(a[0]), int(b[0])))
     return tuple(pairs)
-
-
-def opening(gradients: Array, directions: Array) -> Array:
-    """Least slope (k,) of the distance in some directions (k, 3), from gradients (m, 3)."""
-    return np.asarray(dot(gradients[None], directions[:, None]).min(axis=1))

@@ -1,0 +1,342 @@
+"""Putting the curves and sheets of all regions over the boundary into one complex."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from decomp.boundary.topology import Convexity
+from decomp.cells.partition import TrimSurface
+from decomp.complex.model import Line, LineKind, Patch, PatchKind
+from decomp.errors import GeometryError
+from decomp.sites import SiteIndex
+from decomp.skeleton.normal_curves import EdgeNormals, NormalCurve, VertexNormals
+from decomp.skeleton.pieces import CurvePiece
+from decomp.skeleton.region_curves import RegionCurves
+from decomp.skeleton.sampling import sampled
+from decomp.skeleton.sheets import SheetMaker, SheetPart
+from decomp.skeleton.trim_surfaces import RuledSurface, strip
+from decomp.vectors import Array, Ints, cross, dot, norm, place
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryVertices:
+    """Where a region's boundary is in the complex.
+
+    Args:
+        points: (n, 3) all points of the boundary complex.
+        of_vertex: the point of each of the region's vertices.
+        of_edge: for each edge its polyline of points, along the edge; closed ones repeat the first.
+    """
+
+    points: Array
+    of_vertex: Sequence[int]
+    of_edge: Sequence[Ints]
+
+
+@dataclass(eq=False)
+class RegionParts:
+    """One region's contribution to the complex, vertices counted in the whole.
+
+    Args:
+        points: (k, 3) new points.
+        lines: one for each curve piece.
+        sheets: all of them.
+        trims: trim surfaces as (sites: face's or vertex's side first, triangles, surface).
+        node: the vertex of each node of the curves.
+    """
+
+    points: Array
+    lines: list[Line]
+    sheets: list[SheetPart]
+    trims: list[tuple[TrimSurface, Patch]] = field(default_factory=list)
+    node: list[int] = field(default_factory=list)
+
+
+def owners(curves: RegionCurves) -> dict[int, int]:
+    """The face that owns each site: an edge's or vertex's is one of its faces."""
+    incidence = curves.incidence
+    boundary = incidence.boundary
+    owner = {site: face for face, site in incidence.face_site.items()}
+    for edge, site in incidence.edge_site.items():
+        owner[site] = boundary.edges[edge].faces[0]
+    for vertex, site in incidence.vertex_site.items():
+        edges = [e for e in boundary.vertices[vertex].edges if e in incidence.edge_site]
+        faces = boundary.vertices[vertex].faces
+        owner[site] = boundary.edges[edges[0]].faces[0] if edges else faces[0]
+    return owner
+
+
+class RegionAssembler:
+    """Samples a region's curves and triangulates its sheets.
+
+    Args:
+        index: queries of the model.
+        curves: of the region.
+        boundary: its boundary in the complex.
+        first: number of the first new point.
+        tolerance: of chords along curves.
+    """
+
+    def __init__(
+        self,
+        index: SiteIndex,
+        curves: RegionCurves,
+        boundary: BoundaryVertices,
+        first: int,
+        tolerance: float,
+    ) -> None:
+        self._index, self._curves, self._boundary = index, curves, boundary
+        self._tolerance = tolerance
+        self._first = first
+        self._new: list[Array] = []
+        self._size = curves.incidence.boundary.diagonal
+
+    def assemble(self) -> RegionParts:
+        """Make the region's lines, sheets and trim surfaces.
+
+        Raises:
+            CrossingError: curves must be sampled more finely.
+            GeometryError: a sheet or trim surface cannot be made; says where.
+        """
+        nodes = self._place_nodes()
+        lines = [self._line(piece, nodes) for piece in self._curves.pieces]
+        points = np.concatenate([self._boundary.points, np.array(self._new).reshape(-1, 3)])
+        sheets = self._sheets(points, lines, nodes)
+        parts = RegionParts(
+            np.array(self._new).reshape(-1, 3),
+            [
+                Line(piece.kind, piece.element, line)
+                for piece, line in zip(self._curves.pieces, lines, strict=True)
+            ],
+            sheets,
+            node=nodes,
+        )
+        parts.trims.extend(_TrimMaker(self._curves, self._boundary, points, lines).surfaces())
+        return parts
+
+    def _add(self, point: Array) -> int:
+        self._new.append(point)
+        return self._first + len(self._new) - 1
+
+    def _place_nodes(self) -> list[int]:
+        fixed = self._curves.vertices
+        used = {end for piece in self._curves.pieces for end in piece.ends or ()}
+        used |= set(range(fixed, fixed + len(self._curves.points)))
+        result = [-1] * len(self._curves.nodes)
+        for number, point in enumerate(self._curves.nodes):
+            if number < fixed:
+                result[number] = self._boundary.of_vertex[number]
+            elif number in used:
+                near = norm(self._boundary.points - point)
+                k = int(np.argmin(near))
+                result[number] = k if near[k] <= 1e-8 * self._size else self._add(point)
+        return result
+
+    def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
+        loop = piece.ends is None or piece.ends[0] == piece.ends[1]
+        found = sampled(piece.element, piece.points, self._tolerance, 3 if loop else 1)
+        inner = [self._add(p) for p in found[1:-1]]
+        if piece.ends is None:
+            first = last = self._add(found[0])
+        else:
+            first, last = (nodes[k] for k in piece.ends)
+        return np.array([first, *inner, last], dtype=np.int64)
+
+    def _sheets(
+        self, points: Array, lines: Sequence[Ints], nodes: Sequence[int]
+    ) -> list[SheetPart]:
+        borders: dict[tuple[int, int], list[Ints]] = {}
+        for piece, line in zip(self._curves.pieces, lines, strict=True):
+            for pair in set(piece.pairs):
+                borders.setdefault(pair, []).append(line)
+        incidence = self._curves.incidence
+        for number, edge in enumerate(incidence.boundary.edges):
+            if edge.convexity is Convexity.CONVEX:
+                a, b = sorted(incidence.face_site[f] for f in edge.faces)
+                borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
+        kinks = self._kinks(nodes)
+        maker = SheetMaker(self._index, incidence, points)
+        sheets = []
+        for pair in sorted(borders):
+            if pair[0] == pair[1]:
+                name = incidence.sites[pair[0]].name
+                where = place(points[borders[pair][0][0]])
+                raise GeometryError(f"sheets of the edge {name} with itself, near {where}")
+            sheets.extend(maker.sheets(pair, borders[pair], kinks.get(pair, [])))
+        return sheets
+
+    def _kinks(self, nodes: Sequence[int]) -> dict[tuple[int, int], list[int]]:
+        """Ends of reflexive loci: there a sheet between the carrier and another site is pointed."""
+        found: dict[tuple[int, int], list[int]] = {}
+        curves = self._curves
+        for part in curves.reflexive:
+            for end, other in zip(part.ends, part.others, strict=True):
+                if other < 0:
+                    continue
+                gaps = norm(curves.nodes - end)
+                number = int(np.argmin(gaps))
+                if gaps[number] > 1e-6 * self._size or nodes[number] < 0:
+                    continue
+                for site in part.sites:
+                    pair = (min(site, other), max(site, other))
+                    if nodes[number] not in found.setdefault(pair, []):
+                        found[pair].append(nodes[number])
+        return found
+
+
+class _TrimMaker:
+    """Makes the trim surfaces between the cells of different faces."""
+
+    def __init__(
+        self, curves: RegionCurves, boundary: BoundaryVertices, points: Array, lines: Sequence[Ints]
+    ) -> None:
+        self._curves, self._boundary = curves, boundary
+        self._points, self._lines = points, lines
+        self._owner = owners(curves)
+        self._size = curves.incidence.boundary.diagonal
+
+    def surfaces(self) -> list[tuple[TrimSurface, Patch]]:
+        """Each with the faces on its two sides; the patch number is to be filled in."""
+        found = []
+        for number, curve in enumerate(self._curves.over):
+            one, two = (self._owner[site] for site in curve.sites)
+            if one == two:
+                continue
+            upper = self._upper(number, curve)
+            lower = self._lower(curve)
+            triangles = self._strip(curve, lower, upper)
+            if len(triangles):
+                found.append(self._patch(curve, triangles))
+        return found
+
+    def _lower(self, curve: NormalCurve) -> Ints:
+        if isinstance(curve, EdgeNormals):
+            edges = self._curves.incidence.boundary.edges
+            number = next(k for k, edge in enumerate(edges) if edge is curve.edge)
+            return self._boundary.of_edge[number]
+        assert isinstance(curve, VertexNormals)
+        vertex = int(np.argmin(norm(self._curves.nodes[: self._curves.vertices] - curve.vertex)))
+        return np.array([self._boundary.of_vertex[vertex]], dtype=np.int64)
+
+    def _upper(self, number: int, curve: NormalCurve) -> Ints:
+        """The trim over a normal curve as one polyline in the sense of its parameter."""
+        runs = []
+        for piece, line in zip(self._curves.pieces, self._lines, strict=True):
+            if number in piece.over:
+                s = self._along(curve, self._points[line], line)
+                if s[0] > s[-1]:
+                    line, s = line[::-1], s[::-1]
+                runs.append((float(s[len(s) // 2] if len(s) > 2 else s.mean()), line))
+        runs.sort(key=lambda run: run[0])
+        if not runs:
+            return self._on_locus(curve)
+        joined = [runs[0][1]]
+        for _, line in runs[1:]:
+            if line[0] != joined[-1][-1]:
+                where = place(self._points[line[0]])
+                raise GeometryError(f"the trim near {where} has a gap")
+            joined.append(line[1:])
+        return np.concatenate(joined)
+
+    def _on_locus(self, curve: NormalCurve) -> Ints:
+        """The upper end where the normals meet on a reflexive locus."""
+        raise GeometryError(
+            f"trim surface that ends on a reflexive locus, at "
+            f"{place(curve.feet(np.array([curve.start]))[0])}"
+        )
+
+    def _along(self, curve: NormalCurve, points: Array, line: Ints) -> Array:
+        """Parameters of the vertices of a polyline, made continuous."""
+        s = np.array(curve.parameter(points))
+        if curve.closed:
+            period = curve.end - curve.start
+            turn = np.diff(s)
+            s[1:] -= period * np.cumsum(np.round(turn / period))
+        return s
+
+    def _strip(self, curve: NormalCurve, lower: Ints, upper: Ints) -> Ints:
+        upper_s = self._along(curve, self._points[upper], upper)
+        if len(lower) == 1:
+            return strip(lower, np.zeros(1), upper, upper_s)
+        lower_s = self._along(curve, self._points[lower], lower)
+        if curve.closed:
+            return self._ring(curve, lower, lower_s, upper, upper_s)
+        # at an end of radius zero the trim starts in the vertex, whose parameter is exact there
+        return strip(lower, lower_s, upper, upper_s)
+
+    def _ring(
+        self, curve: NormalCurve, lower: Ints, lower_s: Array, upper: Ints, upper_s: Array
+    ) -> Ints:
+        """A strip that closes: the upper loop is turned to start beside the lower one's start."""
+        period = curve.end - curve.start
+        body, s = upper[:-1], upper_s[:-1]
+        if lower_s[-1] < lower_s[0]:
+            lower, lower_s = lower[::-1], lower_s[::-1]
+        if upper_s[-1] < upper_s[0]:
+            body, s = body[::-1], s[::-1]
+        s = lower_s[0] + np.mod(s - lower_s[0], period)
+        order = np.argsort(s, kind="stable")
+        body, s = body[order], s[order]
+        turned = np.append(body, body[0])
+        turned_s = np.append(s, s[0] + period)
+        # between the two starts: one triangle more closes the ring, made by the common parameter
+        return strip(lower, lower_s, turned, turned_s)
+
+    def _patch(self, curve: NormalCurve, triangles: Ints) -> tuple[TrimSurface, Patch]:
+        """Orient: normals point from the higher-dimensional site's side to the other's."""
+        near, far = curve.sites[1], curve.sites[0]
+        surface = RuledSurface(curve, self._sense(curve))
+        corners = self._points[triangles]
+        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        wanted = surface.normal(corners.mean(axis=1))
+        against = dot(normals, wanted) < 0
+        oriented = np.where(against[:, None], triangles[:, ::-1], triangles)
+        faces = (self._owner[near], self._owner[far])
+        return TrimSurface(-1, faces), Patch(PatchKind.TRIM, surface, oriented)
+
+    def _sense(self, curve: NormalCurve) -> float:
+        """The sign that makes normals point from the second site's side to the first's."""
+        middle = np.array([(curve.start + curve.end) / 2])
+        feet, ways = curve.feet(middle), curve.directions(middle)
+        up = RuledSurface(curve, 1.0).normal(feet + 0.1 * self._size * ways)[0]
+        away = self._off_second(curve, feet[0])
+        return 1.0 if float(up @ away) > 0 else -1.0
+
+    def _off_second(self, curve: NormalCurve, foot: Array) -> Array:
+        """A direction at a foot that leads away from the second site."""
+        incidence = self._curves.incidence
+        if isinstance(curve, VertexNormals):
+            # the edge leaves the vertex: away from it is against the edge
+            edge = incidence.sites[curve.sites[1]].index
+            samples = incidence.boundary.edges[edge].samples
+            ends = samples[0], samples[-1]
+            other = ends[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else ends[0]
+            near = samples[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else samples[-2]
+            del other
+            return np.asarray(foot - near)
+        assert isinstance(curve, EdgeNormals)
+        second = incidence.sites[curve.sites[1]].index
+        edge = next(k for k, e in enumerate(incidence.boundary.edges) if e is curve.edge)
+        return _out_of_face(incidence, second, edge, foot)
+
+
+def _out_of_face(incidence: object, face: int, edge: int, foot: Array) -> Array:
+    """The direction in a face's tangent plane that leaves it across one of its edges."""
+    from decomp.skeleton.incidence import Incidence
+
+    assert isinstance(incidence, Incidence)
+    boundary = incidence.boundary
+    outward = -incidence.inward(face, foot[None])[0]
+    tangent = incidence.tangent(edge, foot)
+    for loop in boundary.faces[face].loops:
+        for number, sense in loop:
+            if number == edge:
+                # the face lies on the left of its loop, seen from outside
+                return np.asarray(-cross(outward, sense * tangent))
+    raise GeometryError(f"the edge at {place(foot)} is not one of its face's")
+
+
+_ = LineKind
