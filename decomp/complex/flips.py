@@ -76,7 +76,7 @@ def _round(mesh: Mesh) -> int:
     a, b = flat[h1], flat[next_half(h1)]
     c, d = flat[next_half(next_half(h1))], flat[next_half(next_half(h2))]
     pairs = pair_keys(c, d)
-    _, exists = found(np.unique(edges.keys & PAIR), pairs)
+    _, exists = found(edges.pairs, pairs)
     use = (flat[h2] == b) & (c != d) & ~exists
     able, h1, h2, a, b, c, d, pairs = (x[use] for x in (able, h1, h2, a, b, c, d, pairs))
     if len(able) == 0:

@@ -5,6 +5,7 @@
 2. Edges inside patches, the worst first, are split likewise.
 3. Patches that touch along chords are parted.
 4. Vertices inside patches are removed where that leaves the error within tolerance.
+5. Errors close to the tolerance are measured again, more thoroughly.
 """
 
 from __future__ import annotations
@@ -23,9 +24,6 @@ from decomp.errors import GeometryError
 from decomp.vectors import Ints, place
 
 Progress: TypeAlias = Callable[[int], None]
-
-MARGIN: Final = 0.98
-"""Errors are kept this much below the tolerance, as they are measured at a few points only."""
 
 PATIENCE: Final = 12
 """So often triangles that only lean, or patches that touch, are split."""
@@ -57,8 +55,17 @@ def refined(
     It is -1 for a point inside a patch that was removed; the others keep their order. Points on
     lines, and points in no triangle, are never removed.
     """
-    mesh = Mesh(given, MARGIN * tolerance)
+    mesh = Mesh(given, tolerance)
     _check(mesh)
+    _split(mesh, progress)
+    collapse(mesh)
+    while mesh.check():
+        _split(mesh, progress)
+    return mesh.result()
+
+
+def _split(mesh: Mesh, progress: Progress | None) -> None:
+    """Split and flip until all errors are within the limit and no triangle leans."""
     patience = PATIENCE
     while True:
         flip(mesh)
@@ -69,11 +76,7 @@ def refined(
         patience -= 1
         _check_folds(mesh, patience)
         if not (split_leaning(mesh) or split_twins(mesh)):
-            break
-    collapse(mesh)
-    if progress is not None:
-        progress(len(mesh.triangles))
-    return mesh.result()
+            return
 
 
 def _check_folds(mesh: Mesh, patience: int) -> None:

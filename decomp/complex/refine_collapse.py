@@ -1,7 +1,7 @@
 """Removing vertices inside patches while error, normals and topology allow.
 
-A vertex v is moved onto a neighbour u: the two triangles that they share vanish, the others of v get
-u as their corner. The link condition keeps the patch what it is: u and v have just two common
+A vertex v is moved onto a neighbour u: the two triangles that they share vanish, the others of v
+get u as their corner. The link condition keeps the patch what it is: u and v have just two common
 neighbours.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 from decomp.complex.errors_of import edge_errors, triangle_errors
 from decomp.complex.flips import UPRIGHT, flip, next_half
 from decomp.complex.refine_choose import independent, ranks
-from decomp.complex.refine_mesh import PAIR, Mesh, found, pair_keys
+from decomp.complex.refine_mesh import Mesh, found, pair_keys
 from decomp.complex.refine_split import spans
 from decomp.vectors import Array, Bools, Ints, cross, dot
 
@@ -136,7 +136,7 @@ def _moves(mesh: Mesh, able: Bools, order: Ints, starts: Ints) -> Moves:
     move = np.repeat(np.arange(len(v)), sizes)
     out = order[spans(starts[v], sizes)]
     w, x = flat[next_half(out)], flat[next_half(next_half(out))]
-    _, joined = found(np.unique(mesh.edges.keys & PAIR), pair_keys(u[move], w))
+    _, joined = found(mesh.edges.pairs, pair_keys(u[move], w))
     common = np.bincount(move[joined & (w != u[move])], minlength=len(v))
     stays = (w != u[move]) & (x != u[move]) & (common == 2)[move]
     move, out, w, x = move[stays], out[stays], w[stays], x[stays]
@@ -187,7 +187,7 @@ def _judge(mesh: Mesh, moves: Moves, pick: Ints) -> tuple[Array, Array, Array]:
 
 
 def _fresh_edge(mesh: Mesh, moves: Moves, k: Ints) -> Bools:
-    """Whether the edge from u to w of a triangle is new: shared with another that u replaces v in."""
+    """Whether the edge from u to w is new: another triangle of the same move has it too."""
     flags = moves.move * len(mesh.points)
     second = np.sort(flags[k] + moves.x[k])
     return found(second, flags[k] + moves.w[k])[1]

@@ -8,10 +8,16 @@ vertices: the two surfaces differ between them.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from decomp.complex.errors_of import edge_errors, triangle_errors
+from decomp.complex.errors_of import (
+    edge_errors,
+    thorough_edge_errors,
+    thorough_errors,
+    triangle_errors,
+)
 from decomp.complex.model import Complex
 from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
@@ -20,6 +26,9 @@ from decomp.vectors import Array, Bools, Ints, norm, place
 
 BITS = 22
 """Bits of a vertex number in an edge's key."""
+
+NEAR = 0.9
+"""What is within this part of the limit is sure to be within the limit itself."""
 
 PAIR = (1 << 2 * BITS) - 1
 
@@ -41,6 +50,7 @@ class Edges:
         sides: (n,) how many triangles have the edge.
         error: (n,) chord error, NaN where not measured.
         middle: (n, 3) midpoint on the element, where measured.
+        checked: (n,) whether an edge has been measured thoroughly.
     """
 
     keys: Ints
@@ -52,6 +62,12 @@ class Edges:
     sides: Ints
     error: Array
     middle: Array
+    checked: Bools
+
+    @cached_property
+    def pairs(self) -> Ints:
+        """Keys of the vertex pairs of all edges, sorted."""
+        return np.sort(self.keys & PAIR)
 
 
 def pair_keys(a: Ints, b: Ints) -> Ints:
@@ -76,6 +92,7 @@ class Mesh:
         patch: (m,) the patch of each triangle.
         error, upright: (m,) as `triangle_errors` gives them, NaN where not measured.
         fresh: (m,) whether a triangle has changed since flips were last tried.
+        checked: (m,) whether it has been measured thoroughly.
         path, path_line: (s,) vertices of all lines, one line after the other, and their lines.
         edges: of the triangles and segments as they are now.
     """
@@ -100,6 +117,7 @@ class Mesh:
         self.error: Array = np.full(len(self.triangles), np.nan)
         self.upright: Array = np.full(len(self.triangles), np.nan)
         self.fresh: Bools = np.ones(len(self.triangles), dtype=bool)
+        self.checked: Bools = np.zeros(len(self.triangles), dtype=bool)
         if len(self.points) >= 1 << BITS or len(given.patches) >= 1 << (62 - 2 * BITS):
             raise GeometryError(f"{len(self.points)} points are more than can be refined")
         self._given = given
@@ -134,13 +152,17 @@ class Mesh:
         count = len(distinct)
         ends = np.stack([(distinct & PAIR) >> BITS, distinct & ((1 << BITS) - 1)], axis=1)
         error, middle = np.full(count, np.nan), np.empty((count, 3))
+        checked = np.zeros(count, dtype=bool)
         if old is not None:
             at, same = found(old.keys, distinct)
             error[same] = old.error[at[same]]
             middle[same] = old.middle[at[same]]
+            checked[same] = old.checked[at[same]]
         sides = np.bincount(of_half[:inner], minlength=count)
         owner_of = (distinct >> 2 * BITS) - 1
-        return Edges(distinct, owner_of, ends, of_half, halves, starts, sides, error, middle)
+        return Edges(
+            distinct, owner_of, ends, of_half, halves, starts, sides, error, middle, checked
+        )
 
     def segments(self) -> tuple[Ints, Ints]:
         """Where in `path` each segment begins, and the curve that it is on."""
@@ -159,14 +181,17 @@ class Mesh:
         )
 
     def measure_edges(self) -> None:
-        """Measure the edges that have not been, each against all elements that it is on.
+        """Measure the edges that have not been."""
+        self._measure_edges(np.isnan(self.edges.error), thorough=False)
+
+    def _measure_edges(self, new: Bools, thorough: bool) -> None:
+        """Measure edges, each against all elements that it is on.
 
         Raises:
             GeometryError: an element places points farther away than its own vertices are, or two
                 lines share a segment but not the curve between its ends.
         """
         edges = self.edges
-        new = np.isnan(edges.error)
         if not new.any():
             return
         half = np.flatnonzero(new[edges.of_half])
@@ -180,6 +205,10 @@ class Mesh:
         both = np.unique(np.stack([edges.of_half[half], element]), axis=1)
         which, element = both
         ends = self.points[edges.ends[which]]
+        if thorough:
+            edges.error[new], edges.checked[new] = 0.0, True
+            np.maximum.at(edges.error, which, thorough_edge_errors(self.elements, element, ends))
+            return
         error, middle = edge_errors(self.elements, element, ends, self.limit)
         length = norm(ends[:, 1] - ends[:, 0])
         self._check_short(element, ends.mean(axis=1), error, length)
@@ -195,6 +224,18 @@ class Mesh:
             )
         edges.error[new] = 0.0
         np.maximum.at(edges.error, which, error)
+
+    def check(self) -> bool:
+        """Measure what is close to the limit more thoroughly; whether any is beyond it."""
+        edges = self.edges
+        self._measure_edges((edges.error > NEAR * self.limit) & ~edges.checked, thorough=True)
+        sides = edges.error[edges.of_half[: 3 * len(self.triangles)]].reshape(-1, 3)
+        worst = np.maximum(self.error, sides.max(axis=1))
+        near = np.flatnonzero((worst > NEAR * self.limit) & ~self.checked)
+        corners = self.points[self.triangles[near]]
+        self.error[near] = thorough_errors(self.elements, self.surface[near], corners)
+        self.checked[near] = True
+        return bool((self.error > self.limit).any() or (edges.error > self.limit).any())
 
     def _check_short(self, element: Ints, points: Array, moved: Array, length: Array) -> None:
         """An element must not place a chord's midpoint farther away than the chord is long."""
@@ -221,6 +262,7 @@ class Mesh:
         self.error[which] = np.nan
         self.upright[which] = np.nan
         self.fresh[which] = True
+        self.checked[which] = False
 
     def add_triangles(self, corners: Ints, patch: Ints) -> None:
         """Append triangles (k, 3)."""
@@ -230,6 +272,7 @@ class Mesh:
         self.error = np.concatenate([self.error, np.full(count, np.nan)])
         self.upright = np.concatenate([self.upright, np.full(count, np.nan)])
         self.fresh = np.concatenate([self.fresh, np.ones(count, dtype=bool)])
+        self.checked = np.concatenate([self.checked, np.zeros(count, dtype=bool)])
 
     def drop_triangles(self, which: Ints) -> None:
         """Remove triangles."""
@@ -237,7 +280,7 @@ class Mesh:
         keep[which] = False
         self.triangles, self.patch = self.triangles[keep], self.patch[keep]
         self.error, self.upright = self.error[keep], self.upright[keep]
-        self.fresh = self.fresh[keep]
+        self.fresh, self.checked = self.fresh[keep], self.checked[keep]
 
     # --- result -----------------------------------------------------------------------------
 

@@ -29,7 +29,6 @@ def split_inside(mesh: Mesh) -> int:
     Returns:
         How many edges and triangles were split.
     """
-    edges = mesh.edges
     bad = (mesh.error > mesh.limit) | _worst_sides(mesh)[0]
     small = bad & (_lengths(mesh).max(axis=1) < 0.1 * mesh.limit)
     if small.any():
