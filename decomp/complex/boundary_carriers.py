@@ -64,6 +64,8 @@ def carrier_mesh(
     segments, names = layout.segments(samples)
     segments = local[segments]
     extra = _first_points(layout, known) if interior is None else interior
+    if layout.pole is not None and not (extra == layout.pole).all(axis=1).any():
+        extra = np.concatenate([layout.pole[None], extra])
     for attempt in range(ROUNDS):
         try:
             triangles, corners = _triangulated(layout, np.concatenate([known, extra]), segments)
@@ -92,13 +94,12 @@ def carrier_mesh(
 def _triangulated(layout: Layout, points: Array, segments: Ints) -> tuple[Ints, Array]:
     """All triangles (m, 3) and the coordinates (m, 3, 2) of their corners.
 
-    The first of the points beyond the samples is a sphere's pole, where there is one; its
-    coordinates are not finite.
+    On a sphere one of the points is the pole; its coordinates are not finite.
     """
     if layout.pole is None:
         made = triangulate(layout.chart.to_plane(points), segments, layout.chart.period)
         return made.triangles, made.corners
-    at = int(np.argmin(norm(points - layout.pole)))
+    at = int(np.flatnonzero((points == layout.pole).all(axis=1))[0])
     flat = np.delete(np.arange(len(points)), at)
     uv = np.full((len(points), 2), np.inf)
     uv[flat] = layout.chart.to_plane(points[flat])
@@ -117,7 +118,7 @@ def _triangulated(layout: Layout, points: Array, segments: Ints) -> tuple[Ints, 
 
 
 def _first_points(layout: Layout, known: Array) -> Array:
-    """Points without which a sphere has no triangles; a sphere's pole is the first."""
+    """Points without which a sphere or torus has no triangles."""
     carrier = layout.carrier
     if isinstance(carrier, Torus) and not layout.pieces:
         return _torus_grid(carrier, known, 1)
@@ -153,18 +154,29 @@ def _clear(points: Array, known: Array, gap: float) -> Array:
 def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -> Array:
     """Points (m, 3, 3) on the carrier halfway along the sides of triangles, as drawn."""
     middle = (corners + np.roll(corners, -1, axis=1)) / 2
-    at_pole = ~np.isfinite(middle).all(axis=2)
-    result = layout.chart.to_space(np.where(at_pole[..., None], 0.0, middle).reshape(-1, 2))
-    result = layout.carrier.project(result).reshape(-1, 3, 3)
-    if at_pole.any():
-        both = points[triangles] + points[np.roll(triangles, -1, axis=1)]
-        assert isinstance(layout.carrier, Sphere) and layout.pole is not None
-        centre, radius = layout.carrier.centre, layout.carrier.radius
-        away = both[at_pole] / 2 - centre
-        # the point opposite the pole: any way round
-        x, _ = frame(layout.carrier.normal(layout.pole))
-        away = np.where(norm(away)[:, None] > 1e-6 * radius, away, x)
-        result[at_pole] = layout.carrier.project(centre + radius * away / norm(away)[:, None])
+    if layout.pole is None:
+        return layout.carrier.project(layout.chart.to_space(middle.reshape(-1, 2))).reshape(
+            -1, 3, 3
+        )
+    # beside the triangles that have the pole as a corner: a little beyond the border of the drawing
+    n, ends = len(points), np.roll(triangles, -1, axis=1)
+    fan = np.isinf(corners[:, 2, 0])
+    border = ends[fan, 0] * n + triangles[fan, 0]
+    along = np.roll(corners, -1, axis=1) - corners
+    beyond = 0.25 * np.stack([along[..., 1], -along[..., 0]], axis=-1)
+    outer = np.isin(triangles * n + ends, border) & ~fan[:, None]
+    middle += np.where(outer[..., None], beyond, 0.0)
+    middle[fan, 0] -= beyond[fan, 0]
+    middle[fan, 1:] = 0.0
+    result = layout.carrier.project(layout.chart.to_space(middle.reshape(-1, 2))).reshape(-1, 3, 3)
+    assert isinstance(layout.carrier, Sphere)
+    centre, radius = layout.carrier.centre, layout.carrier.radius
+    both = points[triangles[fan]] + points[ends[fan]]
+    away = (both / 2 - centre)[:, 1:]
+    # the point opposite the pole: any way round
+    x, _ = frame(layout.carrier.normal(layout.pole))
+    away = np.where(norm(away)[..., None] > 1e-6 * radius, away, x)
+    result[fan, 1:] = layout.carrier.project(centre + radius * away / norm(away)[..., None])
     return np.asarray(result)
 
 

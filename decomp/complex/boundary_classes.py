@@ -7,6 +7,7 @@ right of it does not, and what another region's edges cut off belongs together.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
@@ -47,7 +48,7 @@ def sides_of(layout: Layout, triangles: Ints, segments: Ints, names: Ints, count
         layout: of the carrier.
         triangles: (m, 3) indices of points, counterclockwise seen from the carrier's outside.
         segments: (k, 2) of all pieces on the carrier, edges of triangles.
-        names: the (piece, segment) (k, 2) of each.
+        names: the (piece, segment) (k, 2) of each, piece by piece.
         count: number of points.
 
     Raises:
@@ -86,10 +87,12 @@ def _labels(
     # faces on the left and right of every segment that borders one
     wanted = np.full((2, len(piece)), -1, dtype=np.int64)
     own = np.zeros(len(piece), dtype=np.bool_)
+    first = np.flatnonzero(np.diff(piece, prepend=-1))
+    rows_of = {int(piece[a]): slice(a, b) for a, b in pairwise([*first.tolist(), len(piece)])}
     for use in faces:
         for number, direction in use.border:
-            rows = piece == number
-            own |= rows
+            rows = rows_of[number]
+            own[rows] = True
             wanted[0 if direction > 0 else 1, rows] = use.face
     group = _joined(left[~own], right[~own], total)
     sides, wants = np.concatenate([left[own], right[own]]), np.concatenate(wanted[:, own])

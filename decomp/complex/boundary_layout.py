@@ -63,7 +63,8 @@ class Layout:
         """Segments (k, 2) of points, and the (piece, segment) (k, 2) that they are."""
         found, names = [np.empty((0, 2), dtype=np.int64)], [np.empty((0, 2), dtype=np.int64)]
         for piece in self.pieces:
-            segments = samples.segments[piece]
+            chain = samples.vertices[piece]
+            segments = np.stack([chain[:-1], chain[1:]], axis=1)
             found.append(segments)
             rows = np.arange(len(segments))
             names.append(np.stack([np.full(len(rows), piece), rows], axis=1))
