@@ -6,17 +6,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity
 from decomp.cells.partition import TrimSurface
 from decomp.complex.model import Line, LineKind, Patch, PatchKind
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
+from decomp.skeleton.balls import inscribed_balls
+from decomp.skeleton.curves_of_region import LocusRun
 from decomp.skeleton.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.skeleton.pieces import CurvePiece
 from decomp.skeleton.region_curves import RegionCurves
 from decomp.skeleton.sampling import sampled
 from decomp.skeleton.sheets import SheetMaker, SheetPart
+from decomp.skeleton.sheet_surface import SheetSurface
 from decomp.skeleton.trim_surfaces import RuledSurface, strip
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 
@@ -29,11 +33,13 @@ class BoundaryVertices:
         points: (n, 3) all points of the boundary complex.
         of_vertex: the point of each of the region's vertices.
         of_edge: for each edge its polyline of points, along the edge; closed ones repeat the first.
+        of_face: triangles (m, 3) of each face.
     """
 
     points: Array
     of_vertex: Sequence[int]
     of_edge: Sequence[Ints]
+    of_face: Sequence[Ints]
 
 
 @dataclass(eq=False)
@@ -105,6 +111,8 @@ class RegionAssembler:
         lines = [self._line(piece, nodes) for piece in self._curves.pieces]
         points = np.concatenate([self._boundary.points, np.array(self._new).reshape(-1, 3)])
         sheets = self._sheets(points, lines, nodes)
+        sheets += self._closed_sheets({sheet.sites for sheet in sheets})
+        points = np.concatenate([self._boundary.points, np.array(self._new).reshape(-1, 3)])
         parts = RegionParts(
             np.array(self._new).reshape(-1, 3),
             [
@@ -168,6 +176,41 @@ class RegionAssembler:
             sheets.extend(maker.sheets(pair, borders[pair], kinks.get(pair, [])))
         return sheets
 
+    def _closed_sheets(self, known: set[tuple[int, int]]) -> list[SheetPart]:
+        """Sheets without a border, each over a whole face that has none either."""
+        incidence = self._curves.incidence
+        boundary = incidence.boundary
+        found = []
+        for number, face in enumerate(boundary.faces):
+            if face.loops:
+                continue
+            triangles = self._boundary.of_face[number]
+            vertices, local = np.unique(triangles, return_inverse=True)
+            feet = self._boundary.points[vertices]
+            balls = inscribed_balls(
+                self._index, boundary, incidence.region, feet, incidence.inward(number, feet)
+            )
+            others = np.unique(balls.site)
+            own = incidence.face_site[number]
+            if len(others) != 1 or others[0] in (-1, own):
+                continue
+            other = int(others[0])
+            pair = (min(own, other), max(own, other))
+            if pair in known:
+                continue
+            known.add(pair)
+            numbers = np.array([self._add(p) for p in balls.centre], dtype=np.int64)
+            both = np.stack([feet, balls.foot], axis=1)
+            if own > other:
+                both = both[:, ::-1]
+            surface = SheetSurface(incidence, pair, balls.centre, both)
+            # the face's normals point out, from the far site to the face
+            shape = local.reshape(triangles.shape)
+            if own < other:
+                shape = shape[:, ::-1]
+            found.append(SheetPart(pair, surface, numbers[shape]))
+        return found
+
     def _kinks(self, nodes: Sequence[int]) -> dict[tuple[int, int], list[int]]:
         """Ends of reflexive loci: there a sheet between the carrier and another site is pointed."""
         found: dict[tuple[int, int], list[int]] = {}
@@ -205,9 +248,8 @@ class _TrimMaker:
             one, two = (self._owner[site] for site in curve.sites)
             if one == two:
                 continue
-            upper = self._upper(number, curve)
-            lower = self._lower(curve)
-            triangles = self._strip(curve, lower, upper)
+            upper, upper_s = self._upper(number, curve)
+            triangles = self._strip(curve, self._lower(curve), upper, upper_s)
             if len(triangles):
                 found.append(self._patch(curve, triangles))
         return found
@@ -221,34 +263,63 @@ class _TrimMaker:
         vertex = int(np.argmin(norm(self._curves.nodes[: self._curves.vertices] - curve.vertex)))
         return np.array([self._boundary.of_vertex[vertex]], dtype=np.int64)
 
-    def _upper(self, number: int, curve: NormalCurve) -> Ints:
+    def _upper(self, number: int, curve: NormalCurve) -> tuple[Ints, Array]:
         """The trim over a normal curve as one polyline in the sense of its parameter."""
         runs = []
         for piece, line in zip(self._curves.pieces, self._lines, strict=True):
             if number in piece.over:
-                s = self._along(curve, self._points[line], line)
+                s = self._along(curve, self._points[line])
                 if s[0] > s[-1]:
                     line, s = line[::-1], s[::-1]
-                runs.append((float(s[len(s) // 2] if len(s) > 2 else s.mean()), line))
-        runs.sort(key=lambda run: run[0])
-        if not runs:
-            return self._on_locus(curve)
-        joined = [runs[0][1]]
-        for _, line in runs[1:]:
-            if line[0] != joined[-1][-1]:
+                runs.append((line, s))
+        runs += [self._on_locus(run) for run in self._curves.runs if run.over == number]
+        runs.sort(key=lambda run: float(run[1].mean()))
+        lines, parameters = [runs[0][0]], [runs[0][1]]
+        for line, s in runs[1:]:
+            if line[0] != lines[-1][-1]:
                 where = place(self._points[line[0]])
                 raise GeometryError(f"the trim near {where} has a gap")
-            joined.append(line[1:])
-        return np.concatenate(joined)
+            lines.append(line[1:])
+            parameters.append(s[1:])
+        return np.concatenate(lines), np.concatenate(parameters)
 
-    def _on_locus(self, curve: NormalCurve) -> Ints:
-        """The upper end where the normals meet on a reflexive locus."""
-        raise GeometryError(
-            f"trim surface that ends on a reflexive locus, at "
-            f"{place(curve.feet(np.array([curve.start]))[0])}"
-        )
+    def _on_locus(self, run: LocusRun) -> tuple[Ints, Array]:
+        """The polyline along a reflexive locus from the first to the last centre of a run."""
+        ends = [self._vertex_at(run.points[k]) for k in (0, -1)]
+        if run.resting:
+            return np.array(ends), run.s[[0, -1]]
+        middle = run.points[len(run.points) // 2]
+        tree = cKDTree(run.points)
+        reach = float(norm(np.diff(run.points, axis=0)).max())
+        line = [ends[0]]
+        while line[-1] != ends[1]:
+            step = self._next_on_locus(line, tree, reach)
+            if step is None:
+                raise GeometryError(f"no reflexive curve leads past {place(middle)}")
+            line.extend(step)
+        vertices = np.array(line, dtype=np.int64)
+        return vertices, run.s[tree.query(self._points[vertices])[1]]
 
-    def _along(self, curve: NormalCurve, points: Array, line: Ints) -> Array:
+    def _next_on_locus(self, line: list[int], tree: cKDTree, reach: float) -> list[int] | None:
+        """The vertices of the reflexive piece that goes on from a polyline beside known centres."""
+        for piece, vertices in zip(self._curves.pieces, self._lines, strict=True):
+            if piece.kind is not LineKind.REFLEXIVE:
+                continue
+            if tree.query(piece.middle)[0] > reach:
+                continue
+            for way in (vertices, vertices[::-1]):
+                if way[0] == line[-1] and (len(line) < 2 or way[1] != line[-2]):
+                    return [int(v) for v in way[1:]]
+        return None
+
+    def _vertex_at(self, point: Array) -> int:
+        gaps = norm(self._points - point)
+        number = int(np.argmin(gaps))
+        if float(gaps[number]) > 1e-6 * self._size:
+            raise GeometryError(f"no reflexive curve leads to {place(point)}")
+        return number
+
+    def _along(self, curve: NormalCurve, points: Array) -> Array:
         """Parameters of the vertices of a polyline, made continuous."""
         s = np.array(curve.parameter(points))
         if curve.closed:
@@ -257,14 +328,12 @@ class _TrimMaker:
             s[1:] -= period * np.cumsum(np.round(turn / period))
         return s
 
-    def _strip(self, curve: NormalCurve, lower: Ints, upper: Ints) -> Ints:
-        upper_s = self._along(curve, self._points[upper], upper)
+    def _strip(self, curve: NormalCurve, lower: Ints, upper: Ints, upper_s: Array) -> Ints:
         if len(lower) == 1:
             return strip(lower, np.zeros(1), upper, upper_s)
-        lower_s = self._along(curve, self._points[lower], lower)
+        lower_s = self._along(curve, self._points[lower])
         if curve.closed:
             return self._ring(curve, lower, lower_s, upper, upper_s)
-        # at an end of radius zero the trim starts in the vertex, whose parameter is exact there
         return strip(lower, lower_s, upper, upper_s)
 
     def _ring(
@@ -272,18 +341,15 @@ class _TrimMaker:
     ) -> Ints:
         """A strip that closes: the upper loop is turned to start beside the lower one's start."""
         period = curve.end - curve.start
-        body, s = upper[:-1], upper_s[:-1]
         if lower_s[-1] < lower_s[0]:
             lower, lower_s = lower[::-1], lower_s[::-1]
-        if upper_s[-1] < upper_s[0]:
-            body, s = body[::-1], s[::-1]
+        if (upper == upper[0]).all():
+            return strip(lower, lower_s, upper[:1], lower_s[:1])
+        body, s = upper[:-1], upper_s[:-1]
         s = lower_s[0] + np.mod(s - lower_s[0], period)
         order = np.argsort(s, kind="stable")
         body, s = body[order], s[order]
-        turned = np.append(body, body[0])
-        turned_s = np.append(s, s[0] + period)
-        # between the two starts: one triangle more closes the ring, made by the common parameter
-        return strip(lower, lower_s, turned, turned_s)
+        return strip(lower, lower_s, np.append(body, body[0]), np.append(s, s[0] + period))
 
     def _patch(self, curve: NormalCurve, triangles: Ints) -> tuple[TrimSurface, Patch]:
         """Orient: normals point from the higher-dimensional site's side to the other's."""
@@ -337,6 +403,3 @@ def _out_of_face(incidence: object, face: int, edge: int, foot: Array) -> Array:
                 # the face lies on the left of its loop, seen from outside
                 return np.asarray(-cross(outward, sense * tangent))
     raise GeometryError(f"the edge at {place(foot)} is not one of its face's")
-
-
-_ = LineKind

@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.skeleton.assembly import BoundaryVertices, RegionAssembler, RegionParts, owners
-from decomp.skeleton.certificate import certified, explained, shortcomings
+from decomp.skeleton.certificate import VOLUME, Certified, certified, explained, shortcomings
 from decomp.skeleton.certificate_evidence import Evidence
 from decomp.skeleton.region_curves import RegionCurves, region_curves
 from decomp.skeleton.result import (
@@ -49,6 +50,8 @@ SAMPLES = (2000, 20000)
 FINER = 4
 """How much finer curves are sampled where they cross."""
 LEVELS = 5
+FINENESSES = 4
+"""How often the tolerance is made finer for the volume's sake."""
 
 Progress = Callable[[str, float], None]
 
@@ -79,14 +82,13 @@ def skeleton(
         if result is not None:
             return result
     raise GeometryError(
-        f"the skeleton fails its certificate, with {SAMPLES[-1]} samples too: " + "; ".join(failures)
+        f"the skeleton fails its certificate, with {SAMPLES[-1]} samples too: "
+        + "; ".join(failures)
     )
 
 
 class _Attempt:
-    def __init__(
-        self, geometry: Geometry, tolerance: float, samples: int, tell: Progress
-    ) -> None:
+    def __init__(self, geometry: Geometry, tolerance: float, samples: int, tell: Progress) -> None:
         self._geometry, self._relative, self._samples = geometry, tolerance, samples
         self._tolerance = tolerance * geometry.diagonal
         self._tell = tell
@@ -98,16 +100,24 @@ class _Attempt:
         for number, boundary in enumerate(geometry.regions):
             self._tell(f"tracing {boundary.name}", 0.6 * number / len(geometry.regions))
             curves.append(region_curves(geometry.index, boundary, number, self._samples))
-        self._tell("triangulating sheets", 0.6)
-        surface, parts = self._parts(curves)
-        self._tell("refining", 0.7)
-        whole = _Whole(geometry, self._relative, surface, curves, parts)
-        self._tell("measuring", 0.9)
-        return whole.result()
+        fineness = self._relative
+        for _ in range(FINENESSES):
+            self._tell("triangulating sheets", 0.6)
+            surface, parts = self._parts(curves, fineness * geometry.diagonal)
+            self._tell("refining", 0.7)
+            whole = _Whole(geometry, self._relative, fineness, surface, curves, parts)
+            self._tell("measuring", 0.9)
+            result = whole.result()
+            if not result.only_volume:
+                break
+            fineness *= 0.9 * VOLUME / result.volume_error
+        return result.skeleton, result.failures
 
-    def _parts(self, curves: list[RegionCurves]) -> tuple[BoundaryMesh, list[RegionParts]]:
+    def _parts(
+        self, curves: list[RegionCurves], tolerance: float
+    ) -> tuple[BoundaryMesh, list[RegionParts]]:
         """Triangulate; where curves cross in a footprint, sample them more finely."""
-        tolerance = SHARE * self._tolerance
+        tolerance *= SHARE
         for level in range(LEVELS):
             try:
                 surface = boundary_mesh(self._geometry, tolerance)
@@ -124,11 +134,28 @@ class _Attempt:
         first = len(surface.points)
         parts = []
         for number, region in enumerate(curves):
-            vertices = _vertices_of(surface, number)
+            vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
             maker = RegionAssembler(self._geometry.index, region, vertices, first, tolerance)
             parts.append(maker.assemble())
             first += len(parts[-1].points)
         return parts
+
+
+@dataclass(frozen=True, eq=False)
+class _Result:
+    """What has come of a try.
+
+    Args:
+        skeleton: None if it fails its certificate.
+        failures: why.
+        only_volume: whether only the cells' volumes are too far off.
+        volume_error: the largest.
+    """
+
+    skeleton: Skeleton | None
+    failures: list[str]
+    only_volume: bool
+    volume_error: float
 
 
 class _Whole:
@@ -138,6 +165,7 @@ class _Whole:
         self,
         geometry: Geometry,
         relative: float,
+        fineness: float,
         surface: BoundaryMesh,
         curves: list[RegionCurves],
         parts: list[RegionParts],
@@ -161,30 +189,35 @@ class _Whole:
             lines += part.lines
         points = np.concatenate([surface.points, *(part.points for part in parts)])
         given = Complex(points, tuple(patches), tuple(lines))
-        self.complex, self._number = refined(given, relative * geometry.diagonal)
+        self.complex, self._number = refined(given, fineness * geometry.diagonal)
 
-    def result(self) -> tuple[Skeleton | None, list[str]]:
+    def result(self) -> _Result:
         """The finished skeleton, or what its certificate lacks."""
         geometry = self._geometry
         radius = self._radius()
-        regions, failures = [], []
+        regions: list[RegionSkeleton] = []
+        failures: list[str] = []
+        short: set[str] = set()
         for number in range(len(geometry.regions)):
-            region, short = self._region(number, radius)
+            region, found = self._region(number, radius)
             regions.append(region)
-            failures += [f"region {region.name}: {line}" for line in short]
-        if failures:
-            return None, failures
-        return (
-            Skeleton(
-                geometry.model.name,
-                geometry.diagonal,
-                self._relative * geometry.diagonal,
-                geometry.sites,
-                self.complex,
-                radius,
-                tuple(regions),
-            ),
-            [],
+            short |= set(shortcomings(found.certificate, self._relative))
+            lines = explained(found, self._relative, geometry.sites)
+            failures += [f"region {region.name}: {line}" for line in lines]
+        made = Skeleton(
+            geometry.model.name,
+            geometry.diagonal,
+            self._relative * geometry.diagonal,
+            geometry.sites,
+            self.complex,
+            radius,
+            tuple(regions),
+        )
+        return _Result(
+            None if failures else made,
+            failures,
+            short == {"volume_error"},
+            max(region.certificate.volume_error for region in regions),
         )
 
     def _radius(self) -> Array:
@@ -199,7 +232,7 @@ class _Whole:
             radius[rows] = self._geometry.index.nearest(points[rows]).distance
         return radius
 
-    def _region(self, number: int, radius: Array) -> tuple[RegionSkeleton, list[str]]:
+    def _region(self, number: int, radius: Array) -> tuple[RegionSkeleton, Certified]:
         curves, parts = self._curves[number], self._parts[number]
         boundary = self._geometry.regions[number]
         sheets = tuple(
@@ -227,11 +260,6 @@ class _Whole:
             cells_of_faces,
         )
         found = certified(evidence)
-        short = (
-            explained(found, self._relative, self._geometry.sites)
-            if shortcomings(found.certificate, self._relative)
-            else []
-        )
         return (
             RegionSkeleton(
                 boundary.name,
@@ -247,12 +275,10 @@ class _Whole:
                 cells_of_faces,
                 found.certificate,
             ),
-            short,
+            found,
         )
 
-    def _sheet(
-        self, curves: RegionCurves, part: SheetPart, patch: int, radius: Array
-    ) -> Sheet:
+    def _sheet(self, curves: RegionCurves, part: SheetPart, patch: int, radius: Array) -> Sheet:
         triangles = self.complex.patches[patch].triangles
         corners = self.complex.points[triangles]
         doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
@@ -265,9 +291,7 @@ class _Whole:
             (float(used.min()), float(used.max())),
         )
 
-    def _lines(
-        self, number: int, sheets: tuple[Sheet, ...]
-    ) -> list[tuple[LineKind, SkeletonLine]]:
+    def _lines(self, number: int, sheets: tuple[Sheet, ...]) -> list[tuple[LineKind, SkeletonLine]]:
         """Seams, trims and rims, by the number of sheets that meet along them."""
         meeting: dict[tuple[int, int], list[int]] = {}
         for k, sheet in enumerate(sheets):
@@ -304,9 +328,7 @@ class _Whole:
             if count == 2:
                 continue
             vertex = int(self._number[parts.node[node]])
-            found.append(
-                Junction(vertex, float(radius[vertex]), tuple(dict.fromkeys(sites[node])))
-            )
+            found.append(Junction(vertex, float(radius[vertex]), tuple(dict.fromkeys(sites[node]))))
         return tuple(found)
 
     def _reflexive(self, number: int) -> tuple[Reflexive, ...]:
@@ -318,9 +340,7 @@ class _Whole:
             vertices = self.complex.lines[line_number].vertices
             length = float(norm(np.diff(self.complex.points[vertices], axis=0)).sum())
             found.append(
-                Reflexive(
-                    piece.contacts[0][0], 1, line_number, None, length, piece.ends is None
-                )
+                Reflexive(piece.contacts[0][0], 1, line_number, None, length, piece.ends is None)
             )
         for k, part in enumerate(curves.points):
             vertex = int(self._number[parts.node[curves.vertices + k]])
@@ -328,13 +348,17 @@ class _Whole:
         return tuple(found)
 
 
-def _vertices_of(surface: BoundaryMesh, region: int) -> BoundaryVertices:
+def _vertices_of(surface: BoundaryMesh, region: int, count: int) -> BoundaryVertices:
     """Where a region's vertices and edges are among the points of the boundary."""
     edges = []
     for run in surface.pieces.of_edge[region]:
         joined = [surface.samples.vertices[piece][::sense] for piece, sense in run]
         edges.append(np.concatenate([joined[0], *(line[1:] for line in joined[1:])]))
-    return BoundaryVertices(surface.points, surface.pieces.of_vertex[region], edges)
+    faces = []
+    for sides in surface.face_sides(region, count):
+        parts = [surface.patches[patch].patch.triangles[:, ::sense] for patch, sense in sides]
+        faces.append(np.concatenate([np.empty((0, 3), dtype=np.int64), *parts]))
+    return BoundaryVertices(surface.points, surface.pieces.of_vertex[region], edges, faces)
 
 
 def _kind(sheets: int) -> LineKind:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -17,13 +18,15 @@ from decomp.skeleton.graph import Seam
 from decomp.skeleton.incidence import Incidence
 from decomp.skeleton.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.skeleton.pieces import CurvePiece
-from decomp.skeleton.reflexive import ReflexivePart, reflexive_gap
+from decomp.skeleton.reflexive import ReflexivePart, inner_radius, reflexive_gap
 from decomp.skeleton.trims import TrimPiece, TrimScanner, solve_radius
 from decomp.vectors import Array, Ints, norm
 
 ALONG = 16
 """Points by which a piece of trim or reflexive locus is first known."""
 BESIDE = 1e-5
+RUN = 256
+"""Samples by which it is seen where the centres over a normal curve turn back on a locus."""
 
 
 def seam_pieces(incidence: Incidence, seams: Sequence[Seam]) -> list[CurvePiece]:
@@ -89,21 +92,65 @@ def _feet(incidence: Incidence, sites: tuple[int, ...], points: Array) -> Array:
     return feet
 
 
+@dataclass(frozen=True, eq=False)
+class LocusRun:
+    """A part of a normal curve whose balls' centres move one way along a reflexive locus.
+
+    Args:
+        over: number of the normal curve.
+        s: parameters (k,) of it, ascending.
+        points: the centres (k, 3); all the same if they do not move.
+    """
+
+    over: int
+    s: Array
+    points: Array
+
+    @property
+    def resting(self) -> bool:
+        """Whether all centres are one point."""
+        return bool((self.points == self.points[0]).all())
+
+
 def trim_pieces(
     index: SiteIndex, incidence: Incidence, curves: Sequence[NormalCurve]
-) -> list[CurvePiece]:
-    """The trims over normal curves as pieces, those on reflexive loci left out."""
-    found = []
+) -> tuple[list[CurvePiece], list[LocusRun]]:
+    """The trims over normal curves: pieces of their own, and runs along reflexive loci."""
+    found: list[CurvePiece] = []
+    runs: list[LocusRun] = []
     scanner = TrimScanner(index, incidence)
     for number, curve in enumerate(curves):
         for trim in scanner.pieces([curve]):
             piece = _trim_piece(index, incidence, trim)
-            if piece is not None:
+            if isinstance(piece, CurvePiece):
                 found.append(replace(piece, over=frozenset({number})))
-    return found
+            else:
+                runs.extend(_locus_runs(incidence, number, trim, piece))
+    return found, runs
 
 
-def _trim_piece(index: SiteIndex, incidence: Incidence, trim: TrimPiece) -> CurvePiece | None:
+def _locus_runs(
+    incidence: Incidence, number: int, trim: TrimPiece, radius: Callable[[Array], Array]
+) -> list[LocusRun]:
+    """Cut a trim along a reflexive locus where its centres turn back."""
+    curve, size = trim.over, incidence.boundary.diagonal
+    s = np.linspace(trim.start, trim.end, RUN + 1)
+    points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
+    if float(norm(points - points[0]).max()) <= 1e-8 * size:
+        return [LocusRun(number, s, np.repeat(points[:1], len(s), axis=0))]
+    way = np.diff(points, axis=0)
+    turns = np.flatnonzero((way[1:] * way[:-1]).sum(axis=1) < 0) + 1
+    bounds = [0, *turns.tolist(), RUN]
+    return [
+        LocusRun(number, s[a : b + 1], points[a : b + 1])
+        for a, b in zip(bounds, bounds[1:], strict=False)
+    ]
+
+
+def _trim_piece(
+    index: SiteIndex, incidence: Incidence, trim: TrimPiece
+) -> CurvePiece | Callable[[Array], Array]:
+    """The piece over a part of a normal curve; on a reflexive locus only the balls' radii."""
     over, size = trim.over, incidence.boundary.diagonal
     span = trim.end - trim.start
     inner = np.linspace(0, 1, ALONG + 1)[1:-1]
@@ -111,13 +158,12 @@ def _trim_piece(index: SiteIndex, incidence: Incidence, trim: TrimPiece) -> Curv
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
     balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
-    if _on_locus(incidence, over.sites, balls.centre[len(s) // 2], size):
-        return None
+    carrier = _on_locus(incidence, over.sites, balls.centre[len(s) // 2], size)
+    if carrier is not None:
+        return partial(_locus_radius, incidence, over, carrier)
     far = trim.far[0]
     which: Ints = np.full(len(s), far, dtype=np.int64)
-    feet = site_fields(
-        incidence.boundary, incidence.sites, which, balls.centre, balls.foot
-    ).foot
+    feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
     points = balls.centre
     curve = TrimCurve(incidence, over, far, points, feet)
     points = curve.at(s, balls.radius)
@@ -139,8 +185,10 @@ def _trim_piece(index: SiteIndex, incidence: Incidence, trim: TrimPiece) -> Curv
     return CurvePiece(LineKind.TRIM, contacts, curve, points, at)
 
 
-def _on_locus(incidence: Incidence, sites: tuple[int, int], point: Array, size: float) -> bool:
-    """Whether a ball's centre is a centre of curvature of a face that it touches."""
+def _on_locus(
+    incidence: Incidence, sites: tuple[int, int], point: Array, size: float
+) -> int | None:
+    """The face that is touched whose carrier has a centre of curvature in a ball's centre."""
     for site in sites:
         it = incidence.sites[site]
         if it.kind is SiteKind.FACE:
@@ -148,8 +196,14 @@ def _on_locus(incidence: Incidence, sites: tuple[int, int], point: Array, size: 
             carrier = incidence.boundary.carriers[face.carrier]
             gap = reflexive_gap(carrier, face.outward, point[None])
             if float(gap[0]) <= 1e-8 * size:
-                return True
-    return False
+                return it.index
+    return None
+
+
+def _locus_radius(incidence: Incidence, curve: NormalCurve, face: int, s: Array) -> Array:
+    """Radii (k,) of the balls that touch a face at the feet and have their centres on its locus."""
+    it = incidence.boundary.faces[face]
+    return inner_radius(incidence.boundary.carriers[it.carrier], it.outward, curve.feet(s))
 
 
 def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
@@ -158,9 +212,7 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
     boundary = incidence.boundary
     for vertex, face, direction in reflex_rays(incidence):
         point = boundary.vertices[vertex].point
-        balls = inscribed_balls(
-            index, boundary, incidence.region, point[None], direction[None]
-        )
+        balls = inscribed_balls(index, boundary, incidence.region, point[None], direction[None])
         radius = float(balls.radius[0])
         if radius <= 1e-9 * boundary.diagonal:
             continue

@@ -68,21 +68,25 @@ class Network:
     pieces: tuple[CurvePiece, ...]
 
 
-def network(size: float, fixed: Array, pieces: Sequence[CurvePiece]) -> Network:
+def network(
+    size: float, fixed: Array, pieces: Sequence[CurvePiece], turns: Sequence[Array] = ()
+) -> Network:
     """Join pieces into a network.
 
     Args:
         size: of the region.
         fixed: points (f, 3) that stay as they are: the first nodes. Other ends are joined to one
             of them, or to each other.
+        turns: more points (3,) at which pieces are cut.
         pieces: with their ends as first and last point; a piece whose first and last points agree
             to rounding and that is marked by `ends` None and `closed` points stays closed.
     """
     open_ = [p for p in pieces if not _is_loop(p)]
     loops = [p for p in pieces if _is_loop(p)]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
-    nodes, which = _welded(np.concatenate([fixed, ends]), len(fixed), WELD * size)
-    numbers = which[len(fixed) :].reshape(-1, 2)
+    more = np.array(turns).reshape(-1, 3)
+    nodes, which = _welded(np.concatenate([fixed, ends, more]), len(fixed), WELD * size)
+    numbers = which[len(fixed) : len(fixed) + len(ends)].reshape(-1, 2)
     joined = []
     for piece, (a, b) in zip(open_, numbers.tolist(), strict=True):
         points = np.array(piece.points)

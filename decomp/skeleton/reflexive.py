@@ -18,6 +18,7 @@ import numpy as np
 
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.curves.circle import Circle
+from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.skeleton.fields import site_fields
 from decomp.skeleton.incidence import Incidence
@@ -128,6 +129,22 @@ def reflexive_gap(carrier: Carrier, outward: int, points: Array) -> Array:
     return away
 
 
+def inner_radius(carrier: Carrier, outward: int, points: Array) -> Array:
+    """Distance (k,) from points (k, 3) of a carrier along its normals to its reflexive locus."""
+    if isinstance(carrier, (Sphere, Cylinder)):
+        return np.full(len(points), carrier.radius)
+    if isinstance(carrier, Cone):
+        # the normal from the point at slant length l meets the axis at distance l tan(angle)
+        return np.asarray(norm(points - carrier.apex) * np.tan(carrier.angle))
+    if isinstance(carrier, Torus):
+        if outward > 0:
+            return np.full(len(points), carrier.minor)
+        off = _off_axis(points - carrier.centre, carrier.axis)
+        # from the tube's inner side: beyond the tube the normal goes on to the axis
+        return np.asarray(off * carrier.minor / (carrier.major - off))
+    raise GeometryError(f"a {carrier.kind} has no reflexive locus")
+
+
 def _off_axis(v: Array, axis: Array) -> Array:
     return norm(v - (v @ axis)[:, None] * axis)
 
@@ -209,7 +226,7 @@ def _touched_circle(
         behind, here, ahead = point(np.array([u - h, u, u + h]))
         x, y = frame((ahead - behind) / float(norm(ahead - behind)))
         angle = np.linspace(0, 2 * np.pi, count, endpoint=False)[:, None]
-        ways = foot(here + 1e-3 * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
+        ways = foot(here + 1e-7 * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
         return np.asarray(ways / norm(ways)[:, None])
 
     return touched

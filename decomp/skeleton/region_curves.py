@@ -9,6 +9,7 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites import SiteIndex
 from decomp.skeleton.curves_of_region import (
+    LocusRun,
     ray_pieces,
     reflexive_pieces,
     seam_pieces,
@@ -33,6 +34,7 @@ class RegionCurves:
         pieces: between them, with the pairs of sites whose sheets they border.
         over: the normal curves, into which `CurvePiece.over` points.
         reflexive: curves and points.
+        runs: parts of normal curves whose centres lie on reflexive loci.
     """
 
     incidence: Incidence
@@ -40,6 +42,7 @@ class RegionCurves:
     pieces: tuple[CurvePiece, ...]
     over: tuple[NormalCurve, ...]
     reflexive: tuple[ReflexivePart, ...]
+    runs: tuple[LocusRun, ...]
 
     @property
     def vertices(self) -> int:
@@ -70,13 +73,17 @@ def region_curves(
     graph = seam_graph(index, boundary, region, samples=samples)
     over = normal_curves(incidence)
     parts = reflexive_parts(index, incidence)
+    trims, runs = trim_pieces(index, incidence, over)
     found = [
         *seam_pieces(incidence, graph.seams),
-        *trim_pieces(index, incidence, over),
+        *trims,
         *ray_pieces(index, incidence),
         *reflexive_pieces(parts),
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
-    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found)
+    turns = [run.points[k] for run in runs for k in (0, -1)]
+    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns)
     pieces = with_pairs(index, incidence, joined.pieces)
-    return RegionCurves(incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts))
+    return RegionCurves(
+        incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(runs)
+    )

@@ -61,9 +61,7 @@ def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
     i = j = 0
     triangles = []
     while i + 1 < len(lower) or j + 1 < len(upper):
-        go_lower = j + 1 >= len(upper) or (
-            i + 1 < len(lower) and lower_s[i + 1] <= upper_s[j + 1]
-        )
+        go_lower = j + 1 >= len(upper) or (i + 1 < len(lower) and lower_s[i + 1] <= upper_s[j + 1])
         if go_lower:
             triangles.append((lower[i], lower[i + 1], upper[j]))
             i += 1
