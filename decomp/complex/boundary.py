@@ -15,12 +15,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.complex.boundary_carriers import CarrierMesh, carrier_mesh
+from decomp.complex.boundary_carriers import TURN, CarrierMesh, carrier_mesh
 from decomp.complex.boundary_classes import FoldedError
 from decomp.complex.boundary_layout import Layout, layouts
 from decomp.complex.boundary_pieces import Pieces, boundary_pieces
 from decomp.complex.boundary_samples import (
-    TURN,
     Samples,
     numbered,
     refined,

@@ -11,11 +11,13 @@ import numpy as np
 from decomp.carriers import Cone, Plane, Sphere, Torus
 from decomp.complex.boundary_classes import FoldedError, Sides, sides_of
 from decomp.complex.boundary_layout import Layout
-from decomp.complex.boundary_samples import TURN, Samples
+from decomp.complex.boundary_samples import Samples
 from decomp.complex.planar import SparseError, triangulate
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints, dot, frame, norm, place
 
+TURN = np.radians(75)
+"""The most that normals differ along an edge inside a face, more than on samples of its border."""
 ROUNDS = 40
 CLEARANCE = 0.35
 """Points inside keep this part of their spacing away from samples of pieces."""
@@ -67,15 +69,19 @@ def carrier_mesh(
     if layout.pole is not None and not (extra == layout.pole).all(axis=1).any():
         extra = np.concatenate([layout.pole[None], extra])
     for attempt in range(ROUNDS):
-        try:
-            triangles, corners = _triangulated(layout, np.concatenate([known, extra]), segments)
-        except SparseError:
-            if not isinstance(layout.carrier, Torus) or attempt > 3:
-                raise
-            extra = _torus_grid(layout.carrier, known, 2**attempt)
-            continue
-        sides = sides_of(layout, triangles, segments, names, len(known) + len(extra))
         points = np.concatenate([known, extra])
+        try:
+            triangles, corners = _triangulated(layout, points, segments)
+        except SparseError as error:
+            if len(error.places):
+                more = layout.carrier.project(layout.chart.to_space(error.places))
+                extra = np.concatenate([extra, spread(more, np.full(len(more), _gap(layout)))])
+            elif isinstance(layout.carrier, Torus) and attempt < 4:
+                extra = _torus_grid(layout.carrier, known, 2**attempt)
+            else:
+                raise
+            continue
+        sides = sides_of(layout, triangles, segments, names, len(points))
         kept = sides.filled
         triangles, corners = triangles[kept], corners[kept]
         sides = Sides(sides.outer[kept], sides.inner[kept])
@@ -136,10 +142,8 @@ def _torus_grid(torus: Torus, known: Array, finer: int) -> Array:
     """A grid on a torus without the points close to given ones."""
     tube = 8 * finer
     around = tube * max(1, ceil(torus.major / (3 * torus.minor)))
-    u, v = (2 * np.pi * np.arange(n) / n for n in (around, tube))
-    # every second ring is turned by half a step, so that triangles come out even
-    angle = u[:, None] + np.where(np.arange(tube) % 2, np.pi / around, 0.0)
-    grid = torus.point(angle, np.broadcast_to(v, angle.shape), *frame(torus.axis)).reshape(-1, 3)
+    u, v = np.meshgrid(*(2 * np.pi * np.arange(n) / n for n in (around, tube)))
+    grid = torus.point(u.ravel(), v.ravel(), *frame(torus.axis))
     return _clear(grid, known, CLEARANCE * 2 * np.pi * torus.minor / tube)
 
 
@@ -180,6 +184,11 @@ def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -
     return np.asarray(result)
 
 
+def _gap(layout: Layout) -> float:
+    """A distance that points all around a periodic carrier keep from each other."""
+    return min(p for p in layout.chart.period if p is not None) / 12
+
+
 def _bent(
     layout: Layout, points: Array, triangles: Ints, midpoints: Array, segments: Ints, turn: float
 ) -> Array:
@@ -213,4 +222,4 @@ def spread(points: Array, gaps: Iterable[float]) -> Array:
     return np.array(taken).reshape(-1, 3)
 
 
-__all__ = ["CarrierMesh", "FoldedError", "carrier_mesh", "spread"]
+__all__ = ["TURN", "CarrierMesh", "FoldedError", "carrier_mesh", "spread"]

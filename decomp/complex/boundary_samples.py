@@ -11,7 +11,7 @@ import numpy as np
 from decomp.complex.boundary_pieces import Piece, Pieces
 from decomp.vectors import Array, Ints, norm
 
-TURN = np.radians(60)
+CURVE_TURN = np.radians(60)
 """The most that a curve turns from one sample to the next."""
 DENSE = 257
 
@@ -80,7 +80,7 @@ def piece_samples(piece: Piece, tolerance: float) -> Array:
     step = norm(np.diff(points, axis=0))
     turn = 2 * np.arcsin(np.clip(norm(np.diff(tangents, axis=0)) / 2, 0.0, 1.0))
     # a chord of length h has the sagitta curvature h^2 / 8
-    weight = np.maximum(np.sqrt(turn * step / (8 * tolerance)), turn / TURN)
+    weight = np.maximum(np.sqrt(turn * step / (8 * tolerance)), turn / CURVE_TURN)
     total = np.concatenate([[0.0], np.cumsum(weight)])
     least = 3 if piece.closed else 1
     count = max(least, int(np.ceil(total[-1] * (1 - 1e-6))))

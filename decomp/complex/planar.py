@@ -39,7 +39,16 @@ GUARDS = 12
 
 
 class SparseError(GeometryError):
-    """A periodic domain has too few points to be triangulated; more of them help."""
+    """A periodic domain has too few points to be triangulated; more of them help.
+
+    Args:
+        message: what is wrong.
+        places: (k, 2) where points would help, as far as that is known.
+    """
+
+    def __init__(self, message: str, places: Array | None = None) -> None:
+        super().__init__(message)
+        self.places: Array = np.empty((0, 2)) if places is None else places
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +150,7 @@ def _periodic(points: Array, segments: Ints, period: Period, around: int) -> Tri
     outer = np.unique(part[(vertex >= n).any(axis=1)])
     inner = ~np.isin(part, outer)
     vertex, part, coordinates = vertex[inner], part[inner], coordinates[inner]
-    _check(vertex, fixed, n, bool(cyclic.all()))
+    _check(vertex, coordinates, fixed, n, bool(cyclic.all()))
     turns = np.floor(coordinates.mean(axis=1) / np.where(cyclic, base, 1.0))
     coordinates = (
         coordinates - (np.where(cyclic, turns * np.where(cyclic, base, 0.0), 0.0))[:, None]
@@ -183,17 +192,21 @@ def _copied(segments: Ints, home: Array, base: Array, shifts: Ints, n: int) -> I
     return np.concatenate(result)
 
 
-def _check(triangles: Ints, fixed: Ints, n: int, closed: bool) -> None:
+def _check(triangles: Ints, corners: Array, fixed: Ints, n: int, closed: bool) -> None:
     """Raise SparseError unless the triangles form a surface whose border is constrained."""
     problem = "a periodic domain has too few points: "
     if closed and not len(triangles):
         raise SparseError(problem + "no triangle fits")
     ends = np.roll(triangles, -1, axis=1)
-    if (triangles == ends).any():
-        raise SparseError(problem + "a triangle goes all the way round")
+    halfway = (corners + np.roll(corners, -1, axis=1)) / 2
+    around = triangles == ends
+    if around.any():
+        raise SparseError(problem + "a triangle goes all the way round", halfway[around])
     forth, back = (triangles * n + ends).ravel(), (ends * n + triangles).ravel()
-    if len(np.unique(forth)) < len(forth):
-        raise SparseError(problem + "triangles overlap")
+    _, inverse, count = np.unique(forth, return_inverse=True, return_counts=True)
+    if (count > 1).any():
+        double = (count > 1)[inverse.ravel()]
+        raise SparseError(problem + "triangles overlap", halfway.reshape(-1, 2)[double])
     border = ~np.isin(forth, back)
     if closed and border.any():
         raise SparseError(problem + "its triangles leave a gap")
