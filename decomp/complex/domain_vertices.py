@@ -100,33 +100,61 @@ def reaches_into(boundary: RegionBoundary, index: int, directions: Array) -> Boo
 
 def tangent_directions(boundary: RegionBoundary, index: int) -> Array:
     """Unit vectors (k, 3) from a vertex into its edges and faces."""
-    found = []
-    for f in boundary.vertices[index].faces:
-        face = boundary.faces[f]
-        for loop in face.loops:
-            for n, (k, direction) in enumerate(loop):
-                edge = boundary.edges[k]
-                before, sign = loop[n - 1]
-                if edge.vertices is None or edge.vertices[0 if direction > 0 else 1] != index:
-                    continue
-                out = _leaving(edge, direction)
-                back = _leaving(boundary.edges[before], -sign)
-                normal = face.outward * boundary.carriers[face.carrier].normal(
-                    _near(boundary, k, index)
-                )
-                found.append(_sector(out, back, normal))
+    found = [
+        _sector(corner)
+        for face in boundary.vertices[index].faces
+        for corner in _corners(boundary, index, face)
+    ]
     if not found:
         point = boundary.vertices[index].point
         raise GeometryError(f"no face has a corner at the vertex {place(point)}")
     return np.concatenate(found)
 
 
-def _sector(first: Array, last: Array, normal: Array) -> Array:
-    """Unit vectors from `first` counterclockwise about `normal` to `last`."""
-    side = cross(normal, first)
-    angle = float(np.arctan2(dot(last, side), dot(last, first))) % (2 * np.pi)
-    turn = np.linspace(0.0, angle, SECTOR)[:, None]
-    return np.asarray(np.cos(turn) * first + np.sin(turn) * side)
+def opening(boundary: RegionBoundary, index: int, face: int, edge: int) -> float:
+    """The angle in (0, 2 pi) that a face leaves free at its corner between an edge and the next."""
+    for corner in _corners(boundary, index, face):
+        if edge in corner.edges:
+            return 2 * np.pi - corner.angle
+    point = boundary.vertices[index].point
+    raise GeometryError(f"edge {edge} has no corner at the vertex {place(point)}")
+
+
+@dataclass(frozen=True, eq=False)
+class _Corner:
+    """A face's corner at a vertex: from `first` counterclockwise about `normal` by `angle`."""
+
+    edges: tuple[int, int]
+    first: Array
+    normal: Array
+    angle: float
+
+
+def _corners(boundary: RegionBoundary, index: int, number: int) -> list[_Corner]:
+    """All corners that a face has at a vertex."""
+    face = boundary.faces[number]
+    found = []
+    for loop in face.loops:
+        for n, (k, direction) in enumerate(loop):
+            edge = boundary.edges[k]
+            before, sign = loop[n - 1]
+            if edge.vertices is None or edge.vertices[0 if direction > 0 else 1] != index:
+                continue
+            first = _leaving(edge, direction)
+            last = _leaving(boundary.edges[before], -sign)
+            carrier = boundary.carriers[face.carrier]
+            normal = face.outward * carrier.normal(_near(boundary, k, index))
+            side = cross(normal, first)
+            angle = float(np.arctan2(dot(last, side), dot(last, first))) % (2 * np.pi)
+            found.append(_Corner((k, before), first, normal, angle))
+    return found
+
+
+def _sector(corner: _Corner) -> Array:
+    """Unit vectors from a corner's first edge to its last."""
+    side = cross(corner.normal, corner.first)
+    turn = np.linspace(0.0, corner.angle, SECTOR)[:, None]
+    return np.asarray(np.cos(turn) * corner.first + np.sin(turn) * side)
 
 
 def _leaving(edge: Edge, direction: int) -> Array:

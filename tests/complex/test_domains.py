@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cache
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.carriers import Sphere
-from decomp.complex.domain_edges import EdgeDomain
+from decomp.complex.domain_edges import EdgeDomain, EndKind
 from decomp.complex.domain_vertices import VertexDomain, reaches_into
 from decomp.complex.domains import Domain, FaceDomain, domain_of
 from decomp.errors import GeometryError
@@ -147,6 +148,7 @@ def edges_of(name: str, kind: str) -> list[tuple[RegionBoundary, int]]:
         ("pocket", "line"),
         ("blind hole", "circle"),
         ("round boss", "circle"),
+        ("square boss", "line"),
         ("unequal tee", "curve"),
         ("equal tee", "ellipse"),
     ],
@@ -169,32 +171,69 @@ def test_edges_are_drawn_one_to_one(name: str, kind: str) -> None:
         assert (handedness(domain, uv) > 0).all()
         # the faces' own normals are the strip's long sides
         sides = [domain.to_plane(feet, feet + n)[:, 1] for n in (one, two)]
-        assert np.abs(sides[0] + sides[1]).max() < 1e-7
-        assert (np.abs(uv[:, 1]) < np.abs(sides[0])).all()
+        assert (np.min(sides, axis=0) < uv[:, 1]).all()
+        assert (np.max(sides, axis=0) > uv[:, 1]).all()
+
+
+FLARED = {EndKind.FLARED_FIRST, EndKind.FLARED_SECOND}
 
 
 @pytest.mark.parametrize(
     ("name", "ends"),
     [
-        ("bracket", {(True, True): 1}),  # an L's inner edge from one plane face to the other
-        ("fichera", {(True, False): 3}),  # from saddle vertices to the reentrant one
-        ("pocket", {(True, False): 4, (False, False): 4}),
-        ("square boss", {(True, True): 4}),  # a ball below a corner touches the plate's top only
-        ("blind hole", {(False, False): 1}),  # closed
+        ("bracket", {"pinched pinched": 1}),  # an L's inner edge from one plane face to the other
+        ("fichera", {"open pinched": 3}),  # from the reentrant vertex to saddle vertices
+        ("pocket", {"open pinched": 4, "open open": 4}),
+        ("square boss", {"flared flared": 4}),  # a ball below a corner touches the top's plane only
+        ("blind hole", {"open open": 1}),  # closed
+        ("equal tee", {"open open": 2}),
     ],
 )
-def test_strips_end_in_a_point_where_no_ball_touches(
-    name: str, ends: dict[tuple[bool, bool], int]
-) -> None:
+def test_strips_end_as_balls_touch_there(name: str, ends: dict[str, int]) -> None:
     boundary = boundary_of(name)
-    found: dict[tuple[bool, bool], int] = {}
+    found: Counter[str] = Counter()
     for k, edge in enumerate(boundary.edges):
         if edge.convexity is Convexity.REENTRANT:
             domain = domain_of(boundary, site(SiteKind.EDGE, k))
             assert isinstance(domain, EdgeDomain)
-            first, last = sorted(domain.pinched, reverse=True)
-            found[first, last] = found.get((first, last), 0) + 1
+            kinds = ["flared" if e.kind in FLARED else e.kind.value for e in domain.ends]
+            found[" ".join(sorted(kinds))] += 1
     assert found == ends
+
+
+def test_a_rim_below_the_corner_of_a_boss_is_a_segment() -> None:
+    """The sheet halfway between two edges of a boss ends in a segment below their corner."""
+    boundary = boundary_of("square boss")
+    corner = np.array([1.0, 1.0, 1.0])
+    for index, edge in enumerate(boundary.edges):
+        if edge.convexity is not Convexity.REENTRANT or norm(edge.samples - corner).min() > 1e-9:
+            continue
+        domain = domain_of(boundary, site(SiteKind.EDGE, index), reach=0.5)
+        along = edge.samples[np.argmax(norm(edge.samples - corner))] - corner
+        along /= norm(along)
+        across = np.array([along[1], along[0], 0.0])
+        depth = np.array([0.0, 0.1, 0.3, 0.5])
+        # points of the sheet at ways s along the edge, the rim being s = 0
+        for s, near in ((0.0, 1e-9), (1e-9, 1e-6), (1e-4, 1e-2)):
+            feet = corner + np.full((4, 1), s) * along
+            toward = feet + s * across - depth[:, None] * np.array([0.0, 0.0, 1.0])
+            uv = domain.to_plane(feet, toward)
+            rim = domain.to_plane(
+                np.repeat(corner[None], 4, axis=0), corner - depth[:, None] * [0, 0, 1]
+            )
+            assert uv == pytest.approx(rim, abs=max(near, 2 * s))
+            assert (np.abs(np.diff(rim[:, 1])) > 0.02).all()
+            back, inward = domain.lift(uv)
+            assert back == pytest.approx(feet, abs=1e-9)
+            away = toward[1:] - feet[1:]
+            assert inward[1:] == pytest.approx(away / norm(away)[:, None], abs=1e-4)
+        # all other directions are the one point without radius
+        one = domain.to_plane(corner[None], corner[None])
+        close = corner + 1e-9 * along
+        other = domain.to_plane(
+            close[None], (close + 1e-9 * across - 1e-9 * np.array([0, 0, 1.0]))[None]
+        )
+        assert one == pytest.approx(other, abs=1e-6)
 
 
 def test_a_pinched_end_is_one_point() -> None:
