@@ -98,7 +98,11 @@ def _round(mesh: Mesh) -> int:
     element = mesh.surface[t1[k]]
     ends = mesh.points[np.stack([c[k], d[k]], axis=1)]
     error, middle = edge_errors(mesh.elements, element, ends, mesh.limit)
-    some = (lean[k] > 0) | (excess(mesh, error) < over[k]) | (error <= mesh.limit)
+    some = _promising(mesh, error, lean[k], over[k])
+    k, error, middle, element = k[some], error[some], middle[some], element[some]
+    centres = [mesh.points[new[k]].mean(axis=1) for new in (new1, new2)]
+    gap = mesh.elements.gap(np.tile(element, 2), np.concatenate(centres)).reshape(2, -1)
+    some = _promising(mesh, np.stack([error, *gap]), lean[k], over[k])
     k, error, middle, element = k[some], error[some], middle[some], element[some]
     if len(k) == 0:
         return 0
@@ -136,6 +140,12 @@ def _round(mesh: Mesh) -> int:
 def next_half(half: Ints) -> Ints:
     """The next side of the same triangle."""
     return np.asarray(np.where(half % 3 == 2, half - 2, half + 1))
+
+
+def _promising(mesh: Mesh, errors: Array, lean: Array, over: Array) -> Bools:
+    """Whether a flip can be good for all that is known of its errors (j, k)."""
+    new = excess(mesh, np.atleast_2d(errors)).sum(axis=0)
+    return np.asarray((lean > 0) | (new < over) | (new == 0))
 
 
 def _convex(points: Array, a: Ints, b: Ints, c: Ints, d: Ints) -> Bools:

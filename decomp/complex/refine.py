@@ -1,7 +1,7 @@
 """Refining a complex until its chord error is within tolerance, with few triangles.
 
-1. Segments of lines are split at the exact middle until each is close to its curve; after each
-   batch edges are flipped.
+1. Segments of lines are split at exact points, so that parts come out equal, until each is close
+   to its curve; after each batch edges are flipped.
 2. Edges inside patches, the worst first, are split likewise.
 3. Patches that touch along chords are parted.
 4. Vertices inside patches are removed where that leaves the error within tolerance.
@@ -15,21 +15,21 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from decomp.complex.flips import UPRIGHT, flip
+from decomp.complex.flips import flip
 from decomp.complex.model import Complex
 from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
 from decomp.complex.refine_split import split_inside, split_leaning, split_lines, split_twins
 from decomp.errors import GeometryError
-from decomp.vectors import Ints, place
+from decomp.vectors import Ints, place, positive
 
 Progress: TypeAlias = Callable[[int], None]
 
 PATIENCE: Final = 12
-"""So often triangles that only lean, or patches that touch, are split."""
+"""So often triangles that only lean are split."""
 
 FOLDED: Final = -0.5
-"""A triangle whose normal has less than this inner product with its surface's is turned over."""
+"""A triangle whose normal has no more than this inner product with its surface's is turned over."""
 
 
 def refine(given: Complex, tolerance: float, progress: Progress | None = None) -> Complex:
@@ -41,6 +41,7 @@ def refine(given: Complex, tolerance: float, progress: Progress | None = None) -
         progress: told the number of triangles after each batch of changes.
 
     Raises:
+        InputError: the tolerance is not positive.
         GeometryError: the complex is not valid, or a surface or curve cannot be followed; the
             message says where.
     """
@@ -55,7 +56,7 @@ def refined(
     It is -1 for a point inside a patch that was removed; the others keep their order. Points on
     lines, and points in no triangle, are never removed.
     """
-    mesh = Mesh(given, tolerance)
+    mesh = Mesh(given, positive(tolerance, "tolerance"))
     _check(mesh)
     _split(mesh, progress)
     collapse(mesh)
@@ -73,16 +74,17 @@ def _split(mesh: Mesh, progress: Progress | None) -> None:
             progress(len(mesh.triangles))
         if split_lines(mesh) or split_inside(mesh):
             continue
+        _check_folds(mesh, FOLDED if patience > 0 else 0.0)
+        leaning = split_leaning(mesh) if patience > 0 else 0
         patience -= 1
-        _check_folds(mesh, patience)
-        if not (split_leaning(mesh) or split_twins(mesh)):
+        if not (leaning or split_twins(mesh)):
             return
 
 
-def _check_folds(mesh: Mesh, patience: int) -> None:
-    """Splitting helps a triangle that leans; one that is folded, or leans on, is an error."""
+def _check_folds(mesh: Mesh, least_upright: float) -> None:
+    """Splitting helps a triangle that leans; one that is folded, or stays so, is an error."""
     least = int(np.argmin(mesh.upright)) if len(mesh.upright) else -1
-    if least >= 0 and mesh.upright[least] < (FOLDED if patience > 0 else UPRIGHT):
+    if least >= 0 and mesh.upright[least] <= least_upright:
         name = mesh.elements.names[int(mesh.surface[least])]
         at = place(mesh.points[mesh.triangles[least]].mean(axis=0))
         raise GeometryError(f"a triangle stays folded on the {name} at {at}")

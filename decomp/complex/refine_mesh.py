@@ -233,7 +233,10 @@ class Mesh:
         worst = np.maximum(self.error, sides.max(axis=1))
         near = np.flatnonzero((worst > NEAR * self.limit) & ~self.checked)
         corners = self.points[self.triangles[near]]
-        self.error[near] = thorough_errors(self.elements, self.surface[near], corners)
+        error = thorough_errors(self.elements, self.surface[near], corners, samples=10)
+        # between the points of the lattice the surface may be a little farther away
+        error += 0.05 * np.maximum(error - sides[near].max(axis=1), 0.0)
+        self.error[near] = error
         self.checked[near] = True
         return bool((self.error > self.limit).any() or (edges.error > self.limit).any())
 

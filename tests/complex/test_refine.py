@@ -9,12 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from decomp import Geometry
 from decomp.carriers import Plane
+from decomp.complex.boundary import boundary_mesh
 from decomp.complex.errors_of import chord_error, flipped
 from decomp.complex.model import Complex
 from decomp.complex.refine import refine, refined
 from decomp.errors import GeometryError
 from tests.complex import shapes
+from tests.solids import SOLIDS
 
 SHAPES: dict[str, tuple[Callable[[], Complex], int]] = {
     "block": (shapes.block, 12),
@@ -83,6 +86,25 @@ def euler(given: Complex) -> int:
     triangles = np.concatenate([p.triangles for p in given.patches])
     edges = {frozenset(side) for side in sides(triangles)}
     return len(np.unique(triangles)) - len(edges) + len(triangles)
+
+
+@pytest.mark.parametrize("name", ["cross-drilled block", "pipe elbow", "bite in a corner"])
+def test_boundaries_of_solids_are_refined(name: str) -> None:
+    geometry = Geometry(SOLIDS[name].make())
+    tolerance = 5e-4 * geometry.diagonal
+    given = boundary_mesh(geometry, tolerance).complex
+    result = refine(given, tolerance)
+    check_conforming(result)
+    assert flipped(result) == 0
+    assert chord_error(result, samples=9) <= tolerance
+    assert euler(result) == euler(given) == 2 * SOLIDS[name].euler
+
+
+def test_lines_that_are_fine_are_left_alone() -> None:
+    geometry = Geometry(SOLIDS["cylinder"].make())
+    tolerance = 5e-4 * geometry.diagonal
+    given = boundary_mesh(geometry, tolerance).complex
+    assert len(refine(given, tolerance).points) == len(given.points)
 
 
 def test_vertices_lie_on_their_elements() -> None:
@@ -210,6 +232,19 @@ def test_two_curves_over_one_segment_are_an_error() -> None:
     line = shapes.edge(shapes.Round(0.3 * shapes.Z, shapes.Y, 1.3), [0, 2])
     with pytest.raises(GeometryError, match="share a segment"):
         refine(replace(given, lines=(*given.lines, line)), 0.01)
+
+
+def test_a_fold_is_an_error() -> None:
+    """A vertex inside a square patch that lies outside the square."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [1.5, 0.5, 0]], dtype=float)
+    fan = [[i, (i + 1) % 4, 4] for i in range(4)]
+    lines = [
+        shapes.edge(shapes.Straight(square[i], square[(i + 1) % 4]), [i, (i + 1) % 4])
+        for i in range(4)
+    ]
+    given = Complex(square, (shapes.face(Plane(shapes.O3, shapes.Z), fan),), tuple(lines))
+    with pytest.raises(GeometryError, match="stays folded on the face surface at"):
+        refine(given, 0.01)
 
 
 class Nowhere(shapes.Round):
