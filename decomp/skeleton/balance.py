@@ -64,6 +64,7 @@ def measure(
     first: int,
     count: int,
     feet: Array,
+    foot: int,
     x: float,
     y: float,
     z: float,
@@ -71,16 +72,16 @@ def measure(
 ) -> tuple[float, float, float]:
     """Put distance and gradient of each support into columns 3 and 4 to 6 of `work`.
 
-    `which` and `feet` are read (and feet brought up to date) from row `first` on.
+    `which` is read from row `first` on, `feet` are read and brought up to date from row `foot` on.
 
     Returns:
         Mean, least and greatest distance.
     """
     least, most, total = 1e300, -1e300, 0.0
     for c in range(count):
-        row = first + c
+        row = foot + c
         away, gx, gy, gz, qx, qy, qz = support(
-            table, which[row], x, y, z, feet[row, 0], feet[row, 1], feet[row, 2]
+            table, which[first + c], x, y, z, feet[row, 0], feet[row, 1], feet[row, 2]
         )
         feet[row, 0], feet[row, 1], feet[row, 2] = qx, qy, qz
         work[c, 3], work[c, 4], work[c, 5], work[c, 6] = away, gx, gy, gz
@@ -95,6 +96,7 @@ def balance(
     first: int,
     count: int,
     feet: Array,
+    foot: int,
     x: float,
     y: float,
     z: float,
@@ -107,7 +109,8 @@ def balance(
         table: supports.
         which: of them, from row `first` on.
         first, count: rows of this point.
-        feet: a foot on each, or close to it; brought up to date.
+        feet: a foot on each, or close to it, from row `foot` on; brought up to date.
+        foot: first row of feet.
         x, y, z: the point.
         size: of the model.
         work: scratch (count + 3, 7); left with J's columns and V of the last step, and with the
@@ -118,7 +121,7 @@ def balance(
     """
     rows = count - 1
     for _ in range(STEPS):
-        _, least, _ = measure(table, which, first, count, feet, x, y, z, work)
+        _, least, _ = measure(table, which, first, count, feet, foot, x, y, z, work)
         for k in range(rows):
             for j in range(3):
                 work[k, j] = work[k + 1, 4 + j] - work[0, 4 + j]
@@ -147,7 +150,7 @@ def balance(
         x, y, z = x + scale * sx, y + scale * sy, z + scale * sz
         if length <= AT_REST * size:
             break
-    mean, least, greatest = measure(table, which, first, count, feet, x, y, z, work)
+    mean, least, greatest = measure(table, which, first, count, feet, foot, x, y, z, work)
     return x, y, z, mean, greatest - least
 
 
@@ -171,6 +174,7 @@ def balance_all(
             i * count,
             count,
             feet,
+            i * count,
             points[i, 0],
             points[i, 1],
             points[i, 2],

@@ -50,6 +50,18 @@ def inscribed_balls(
     Raises:
         GeometryError: there is no ball at a point, or it is not found; says where.
     """
+    balls, state = balls_at(index, boundary, region, points, inward)
+    for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
+        if (state == bad).any():
+            where = place(points[np.argmax(state == bad)])
+            raise GeometryError(f"the ball that touches the boundary at {where} {what}")
+    return balls
+
+
+def balls_at(
+    index: SiteIndex, boundary: RegionBoundary, region: int, points: Array, inward: Array
+) -> tuple[Balls, Ints]:
+    """The same for points that may be off the boundary, and what `shrink` says of each (k,)."""
     points = np.ascontiguousarray(points, dtype=np.float64)
     inward = np.ascontiguousarray(inward, dtype=np.float64)
     size, n = boundary.diagonal, len(points)
@@ -57,17 +69,13 @@ def inscribed_balls(
     state = np.empty(n, dtype=np.int64)
     queries = probe(index, region, size)
     shrink(queries, points, inward, size, np.full(n, size), radius, foot, state)
-    for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
-        if (state == bad).any():
-            where = place(points[np.argmax(state == bad)])
-            raise GeometryError(f"the ball that touches the boundary at {where} {what}")
     foot[state == OSCULATES] = points[state == OSCULATES]
     site = np.full(n, -1, dtype=np.int64)
     two = np.flatnonzero(state == TOUCHES)
     centre = points[two] + radius[two, None] * inward[two]
     site[two] = index.nearest(centre + TOWARDS * (foot[two] - centre)).site
     found = Balls(points + radius[:, None] * inward, radius, site, foot)
-    return _polished(index, boundary, points, inward, found, two)
+    return _polished(index, boundary, points, inward, found, two), state
 
 
 def _polished(

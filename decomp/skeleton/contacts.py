@@ -7,13 +7,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
+from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.sites import SiteIndex
+from decomp.sites.measure import count_of
+from decomp.sites.octree import locate
 from decomp.sites.site import Site, SiteKind
-from decomp.skeleton.fields import site_fields
-from decomp.vectors import Array, Ints, norm
+from decomp.skeleton.compiled import scalar
+from decomp.skeleton.fields import support_fields
+from decomp.skeleton.probing import TOWARDS, Probe, candidate_foot, probe
+from decomp.skeleton.supports import support_table
+from decomp.vectors import Array, norm
 
-TOWARDS = 0.3
+EXACT = 1e-12
+"""Feet on the boundary are as near as queries say, to this part of the size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,43 +42,150 @@ class Contacts:
 def contacts(
     index: SiteIndex, boundary: RegionBoundary, region: int, point: Array, slack: float
 ) -> Contacts:
-    """Find every site whose foot is no more than `slack` farther than the nearest.
+    """Find every site whose foot is no more than `slack` farther than the nearest."""
+    return ContactFinder(index, boundary, region).at(point, slack)
 
-    A site's support may come near without the site (its foot lies outside the face). That is told
-    by a query a little way towards the foot: from there the foot, if on the boundary, is nearest.
+
+class ContactFinder:
+    """Finds contacts in one region."""
+
+    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
+        self._index, self._boundary = index, boundary
+        self._sites = index.sites
+        self._table = support_table(boundary, index.sites)
+        self._probe = probe(index, region, boundary.diagonal)
+        self._near = _neighbours(index.sites, boundary, region)
+        self._feet = np.empty((count_of(self._probe.sites), 3))
+
+    def neighbours(self, site: int) -> tuple[int, ...]:
+        """Sites that can share a foot with a site."""
+        return self._near.get(site, ())
+
+    def at(self, point: Array, slack: float) -> Contacts:
+        """Every site whose foot is no more than `slack` farther than the nearest.
+
+        A site's support may come near without the site (its foot lies outside the face). That is
+        told by a query a little way towards the foot: from there the foot, if on the boundary, is
+        nearest.
+        """
+        radius = float(self._index.nearest(point[None]).distance[0])
+        x, y, z = (float(v) for v in point)
+        count = close_feet(self._probe, x, y, z, radius + slack, self._feet)
+        feet = self._feet[:count].copy()
+        found = self._index.nearest(point + TOWARDS * (feet - point))
+        size = self._boundary.diagonal
+        true = np.abs(found.distance - (1 - TOWARDS) * norm(feet - point)) <= EXACT * size
+        # so far off its site can a foot be without being noticed
+        gap = max(slack, 3 * float(np.sqrt(2 * radius * EXACT * size)))
+        groups: list[tuple[Array, set[int]]] = []
+        for site, own, spot in zip(
+            found.site[true].tolist(), found.foot[true], feet[true], strict=True
+        ):
+            for place, members in groups:
+                if float(norm(place - spot)) <= gap:
+                    members.add(site)
+                    break
+            else:
+                # the query's own foot is exact on its site
+                spot = own if float(norm(own - spot)) <= gap else spot
+                groups.append((spot, {site}))
+        self._complete(point, radius, groups, gap)
+        order = {SiteKind.VERTEX: 0, SiteKind.EDGE: 1, SiteKind.FACE: 2}
+        places = np.array([spot for spot, _ in groups]).reshape(-1, 3)
+        return Contacts(
+            radius,
+            places,
+            tuple(
+                tuple(sorted(members, key=lambda k: (order[self._sites[k].kind], k)))
+                for _, members in groups
+            ),
+            (point - places) / radius,
+        )
+
+    def _complete(
+        self, point: Array, radius: float, groups: Sequence[tuple[Array, set[int]]], gap: float
+    ) -> None:
+        """Add to each contact the neighbours of its sites that have the same foot."""
+        for _ in range(2):
+            which = [
+                (number, other)
+                for number, (_, members) in enumerate(groups)
+                for site in members
+                for other in self._near.get(site, ())
+                if other not in members
+            ]
+            if not which:
+                return
+            spots = np.array([groups[number][0] for number, _ in which])
+            others = np.array([other for _, other in which])
+            field = support_fields(
+                self._table, others, np.repeat(point[None], len(which), axis=0), spots
+            )
+            same = (norm(field.foot - spots) <= gap) & (np.abs(field.distance - radius) <= gap)
+            for (number, other), good in zip(which, same, strict=True):
+                if good:
+                    groups[number][1].add(other)
+
+
+@scalar
+def close_feet(probe: Probe, x: float, y: float, z: float, reach: float, feet: Array) -> int:
+    """Feet within reach of a point on the untrimmed supports of its leaf's candidates.
+
+    Returns:
+        How many there are; they are put into the first rows of `feet`.
     """
-    sites = index.sites
-    here = np.array([k for k, s in enumerate(sites) if s.region == region], dtype=np.int64)
-    nearest = index.nearest(point[None])
-    radius = float(nearest.distance[0])
-    points = np.repeat(point[None], len(here), axis=0)
-    field = site_fields(boundary, sites, here, points, np.repeat(nearest.foot, len(here), axis=0))
-    close = np.abs(field.distance - radius) <= slack
-    here, feet = here[close], field.foot[close]
-    towards = index.nearest(point + TOWARDS * (feet - point))
-    true = np.abs(towards.distance - (1 - TOWARDS) * radius) <= slack
-    return _grouped(sites, point, radius, here[true], feet[true], max(slack, 1e-6 * radius))
+    sites = probe.sites
+    every = len(sites.face_carriers) + len(sites.kinds) + len(sites.vertices)
+    leaf = locate(probe.candidates.tree, x, y, z)
+    begin, end = 0, every
+    if leaf >= 0:
+        begin, end = probe.candidates.first[leaf], probe.candidates.first[leaf + 1]
+    listed = leaf >= 0 and end > begin
+    if not listed:
+        begin, end = 0, every
+    count = 0
+    for m in range(begin, end):
+        k = probe.candidates.items[m] if listed else m
+        qx, qy, qz = candidate_foot(probe, k, x, y, z)
+        dx, dy, dz = qx - x, qy - y, qz - z
+        if dx * dx + dy * dy + dz * dz <= reach * reach:
+            feet[count, 0], feet[count, 1], feet[count, 2] = qx, qy, qz
+            count += 1
+    return count
 
 
-def _grouped(
-    sites: Sequence[Site], point: Array, radius: float, which: Ints, feet: Array, gap: float
-) -> Contacts:
-    """Join sites that share a foot."""
-    order = {SiteKind.VERTEX: 0, SiteKind.EDGE: 1, SiteKind.FACE: 2}
-    groups: list[tuple[Array, list[int]]] = []
-    for number, foot in sorted(
-        zip(which.tolist(), feet, strict=True), key=lambda item: order[sites[item[0]].kind]
-    ):
-        for place, members in groups:
-            if float(norm(place - foot)) <= gap:
-                members.append(number)
-                break
-        else:
-            groups.append((foot, [number]))
-    places = np.array([foot for foot, _ in groups]).reshape(-1, 3)
-    return Contacts(
-        radius,
-        places,
-        tuple(tuple(members) for _, members in groups),
-        (point - places) / radius,
-    )
+def _neighbours(
+    sites: Sequence[Site], boundary: RegionBoundary, region: int
+) -> dict[int, tuple[int, ...]]:
+    """For each site those that can share a foot with it."""
+    number: dict[tuple[SiteKind, int], int] = {
+        (site.kind, site.index): k for k, site in enumerate(sites) if site.region == region
+    }
+    pairs: set[tuple[int, int]] = set()
+
+    def join(a: int | None, b: int | None) -> None:
+        if a is not None and b is not None and a != b:
+            pairs.update([(a, b), (b, a)])
+
+    for k, edge in enumerate(boundary.edges):
+        if edge.convexity is Convexity.CONVEX:
+            continue
+        own = number.get((SiteKind.EDGE, k))
+        one, other = (number[SiteKind.FACE, face] for face in edge.faces)
+        if edge.convexity is Convexity.SMOOTH:
+            join(one, other)
+        join(own, one)
+        join(own, other)
+        for v in edge.vertices or ():
+            vertex = boundary.vertices[v]
+            corner = number.get((SiteKind.VERTEX, v))
+            join(own, corner)
+            for other_edge in vertex.edges:
+                join(own, number.get((SiteKind.EDGE, other_edge)))
+            for face in vertex.faces:
+                join(corner, number[SiteKind.FACE, face])
+                join(own, number[SiteKind.FACE, face])
+    found: dict[int, list[int]] = {}
+    for a, b in sorted(pairs):
+        found.setdefault(a, []).append(b)
+    return {a: tuple(b) for a, b in found.items()}

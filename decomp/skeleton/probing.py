@@ -11,9 +11,11 @@ from typing import NamedTuple
 from decomp.sites import SiteIndex
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
+from decomp.sites.carrier_kernels import Triple, foot
 from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
 from decomp.sites.occupancy import OccupancyTree, label_at, private
 from decomp.sites.octree import locate
+from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
 from decomp.skeleton.compiled import inlined, scalar
 from decomp.vectors import Array
@@ -22,7 +24,9 @@ TOUCH = 1e-11
 """Distances that differ by less than this part of the size count as equal."""
 TOWARDS = 0.3
 """How far towards a foot a query is made to see whether the foot is on the boundary."""
-HOLDS, INTRUDED, LOST = 0, 1, 2
+HOLDS, INTRUDED, LOST, JOINED = 0, 1, 2, -1
+APART = 1e-3
+"""Feet farther apart than this part of the radius are different contacts."""
 
 
 class Probe(NamedTuple):
@@ -76,25 +80,42 @@ def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
     return hit
 
 
-@scalar
-def inspect(
-    probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
-) -> tuple[int, int]:
-    """Whether a ball is empty and touches the boundary at `count` feet, from row `first` on.
+@inlined
+def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple:
+    """The foot on a candidate's support, or on a part of an edge."""
+    sites = probe.sites
+    faces, edges = len(sites.face_carriers), len(sites.kinds)
+    if k < faces:
+        return foot(probe.occupancy.table, sites.face_carriers[k], x, y, z)
+    if k < faces + edges:
+        _, qx, qy, qz = edge_foot(sites, probe.occupancy.table, k - faces, x, y, z, 0.0)
+        return qx, qy, qz
+    v = k - faces - edges
+    return sites.vertices[v, 0], sites.vertices[v, 1], sites.vertices[v, 2]
 
-    Returns:
-        HOLDS; INTRUDED if something is nearer than the radius or the centre is outside; LOST and
-        which foot if one is not on the boundary.
-    """
-    if not inside(probe, x, y, z):
-        return INTRUDED, -1
-    if nearest_hit(probe, x, y, z).distance < radius - probe.slack:
-        return INTRUDED, -1
-    for c in range(count):
-        row = first + c
-        px = x + TOWARDS * (feet[row, 0] - x)
-        py = y + TOWARDS * (feet[row, 1] - y)
-        pz = z + TOWARDS * (feet[row, 2] - z)
-        if nearest_hit(probe, px, py, pz).distance > (1.0 - TOWARDS) * radius + probe.slack:
-            return LOST, c
-    return HOLDS, -1
+
+@scalar
+def another(
+    probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
+) -> bool:
+    """Whether a ball touches the boundary at another foot than `count` known ones."""
+    reach = (radius + probe.slack) ** 2
+    leaf = locate(probe.candidates.tree, x, y, z)
+    if leaf < 0:
+        return False
+    for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
+        qx, qy, qz = candidate_foot(probe, probe.candidates.items[m], x, y, z)
+        if (qx - x) ** 2 + (qy - y) ** 2 + (qz - z) ** 2 > reach:
+            continue
+        known = False
+        for c in range(count):
+            dx, dy, dz = qx - feet[first + c, 0], qy - feet[first + c, 1], qz - feet[first + c, 2]
+            if dx * dx + dy * dy + dz * dz <= (APART * radius) ** 2:
+                known = True
+        if known:
+            continue
+        px, py, pz = x + TOWARDS * (qx - x), y + TOWARDS * (qy - y), z + TOWARDS * (qz - z)
+        away = nearest_hit(probe, px, py, pz).distance
+        if away <= (1.0 - TOWARDS) * radius + probe.slack:
+            return True
+    return False

@@ -1,9 +1,7 @@
 """Tracing one seam from a point to where it ends.
 
-A seam is followed by steps along its tangent and Newton's method back onto it. After every step
-two questions are put to the nearest-site query: is anything nearer than the seam's own sites (then
-it has run past a junction), and is every foot still on its site (else the foot has crossed an edge
-and the neighbouring site takes over: a trim, where the seam goes on smoothly).
+A seam is followed as long as its sites stay the same, see `following`. Where a foot leaves its site
+the neighbouring site takes over: a trim, where the seam goes on smoothly, unless it splits there.
 """
 
 from __future__ import annotations
@@ -17,27 +15,48 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import Nearest, SiteIndex
-from decomp.skeleton.contacts import TOWARDS
-from decomp.skeleton.equidistance import equidistant
-from decomp.skeleton.local import seam_rays
+from decomp.skeleton.contacts import ContactFinder
+from decomp.skeleton.following import (
+    CLOSED,
+    ENDED,
+    FULL,
+    STUCK,
+    Track,
+    follow,
+    settle,
+    track,
+)
+from decomp.skeleton.probing import APART, INTRUDED, JOINED, TOUCH, TOWARDS, probe
+from decomp.skeleton.supports import support_table
+from decomp.skeleton.walls import Walls, cross
 from decomp.vectors import Array, norm, place
 
-LONGEST, SHORTEST = 0.05, 1e-9
-TURNING = np.radians(6.0)
-TOUCH = 1e-10
-HALVINGS = 60
-MOST_STEPS = 5000
+ROOM = 1024
+MOST_RUNS = 1000
+AHEAD = 1e-4
+"""How far ahead, as part of the radius, it is seen whether a seam goes on at a trim."""
+SLACK = 1e-9
+"""Contacts whose distances differ by less than this part of the size are looked at as equal."""
+MERGED = 1e-5
+"""Feet nearer than this part of the radius have run together."""
+FOOT_ON_EDGE = 1e-9
+NEAR_WALL = 1e-3
+"""Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
+SAME = 1e-10
+"""Points nearer than this part of the size are one."""
 
 
 class SeamEnd(Enum):
     """How a seam ends.
 
     At a junction, where another site is as near; at a split, where sites that were equally near
-    part tangentially; at the boundary, where its radius is zero; or in its own beginning.
+    part tangentially or others join them; at a fin, where two of its contacts run together and so
+    the sheet between them ends; at the boundary, where its radius is zero; or in its own beginning.
     """
 
     JUNCTION = "junction"
     SPLIT = "split"
+    FIN = "fin"
     BOUNDARY = "boundary"
     CLOSED = "closed"
 
@@ -62,39 +81,59 @@ class State:
     tangent: Array
     slope: float
 
+    def turned(self) -> State:
+        """The same point, travelling the other way."""
+        return replace(self, tangent=-self.tangent, slope=-self.slope)
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Points of a seam with constant sites.
+
+    Args:
+        sites: the site of each contact.
+        points: (n, 3).
+        radius: (n,).
+        feet: (n, m, 3).
+    """
+
+    sites: tuple[int, ...]
+    points: Array
+    radius: Array
+    feet: Array
+
 
 @dataclass(frozen=True, eq=False)
 class Traced:
     """A seam as it was traced.
 
     Args:
-        states: its points in order; sites may change from one to the next at trims.
+        runs: its parts in order; where a foot passes to another site the point at the end of one
+            run is the first of the next.
+        last: its last point.
         end: how it ends.
         intruder: the site that ends it at a junction, -1 otherwise.
+        foot: of the intruder.
     """
 
-    states: tuple[State, ...]
+    runs: tuple[Run, ...]
+    last: State
     end: SeamEnd
     intruder: int
-
-
-@dataclass(frozen=True, eq=False)
-class _Check:
-    """What the nearest-site query says of a point: an intruding site, or feet that left theirs."""
-
-    intruder: int
-    sites: tuple[int, ...]
-
-    def same(self, sites: tuple[int, ...]) -> bool:
-        return self.intruder < 0 and self.sites == sites
+    foot: Array
 
 
 class SeamTracer:
     """Follows seams of one region."""
 
     def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
-        self._index, self._boundary, self._region = index, boundary, region
-        self._size = boundary.diagonal
+        self.index, self.boundary, self.region = index, boundary, region
+        self.size = boundary.diagonal
+        self.table = support_table(boundary, index.sites)
+        self.contacts = ContactFinder(index, boundary, region)
+        self._probe = probe(index, region, self.size)
+        self._walls = Walls(boundary, index.sites, self.table)
+        self._tracks: dict[int, Track] = {}
 
     def trace(self, start: State) -> Traced:
         """Follow a seam from `start` in the sense of its tangent.
@@ -102,150 +141,250 @@ class SeamTracer:
         Raises:
             GeometryError: the seam cannot be followed; says where.
         """
-        states = [start]
-        step = 1e-3 * self._size
-        for _ in range(MOST_STEPS):
-            here = states[-1]
-            if here.radius <= 1e-7 * self._size and here.slope < 0:
-                return Traced(tuple(states), SeamEnd.BOUNDARY, -1)
-            limit = 0.5 * here.radius / -here.slope if here.slope < 0 else np.inf
-            step = min(step, LONGEST * self._size, limit)
-            moved = self._step(here, step)
-            if moved is None:
-                step /= 2
-                if step < SHORTEST * min(self._size, 1e3 * here.radius):
-                    if len(here.sites) > 3:
-                        return Traced(tuple(states), SeamEnd.SPLIT, -1)
-                    raise GeometryError(f"a seam cannot be followed past {place(here.point)}")
-                continue
-            check = self._check(moved)
-            if check.same(moved.sites):
-                states.append(moved)
-                if len(states) > 3 and self._returns(states):
-                    return Traced((*states[:-1], states[0]), SeamEnd.CLOSED, -1)
-                step *= 1.5
-                continue
-            last, check = self._last_before(here, step)
-            if last is not here:
-                states.append(last)
-            if check.intruder >= 0:
-                return Traced(tuple(states), SeamEnd.JUNCTION, check.intruder)
-            states.append(self._switched(last, check.sites))
-            step = 1e-3 * self._size
+        home = np.concatenate([start.point, start.tangent])
+        here, runs, steps, nothing = start, [], 0, np.zeros(3)
+        for _ in range(MOST_RUNS):
+            room = self._room(len(here.sites))
+            self._put(room, 0, here)
+            which = np.array(here.sites, dtype=np.int64)
+            same = here.sites == start.sites
+            count, why, contact = follow(
+                self.table, self._probe, which, room, self.size, home, steps, same
+            )
+            steps += count - 1
+            last = self._get(room, count - 1, here.sites)
+            if why in (FULL, ENDED, CLOSED, STUCK):
+                runs.append(self._run(room, count, here.sites))
+                if why == FULL:
+                    here = last
+                    continue
+                if why == ENDED:
+                    return Traced(tuple(runs), last, SeamEnd.BOUNDARY, -1, nothing)
+                if why == CLOSED:
+                    return Traced(tuple(runs), last, SeamEnd.CLOSED, -1, nothing)
+                if self._merged(last):
+                    return Traced(tuple(runs), last, SeamEnd.FIN, -1, nothing)
+                if len(self.contacts.at(last.point, 1e-7 * self.size).feet) > 3:
+                    return Traced(tuple(runs), last, SeamEnd.SPLIT, -1, nothing)
+                raise GeometryError(f"a seam cannot be followed past {place(last.point)}")
+            beyond = self._get(room, count, here.sites)
+            if why == INTRUDED:
+                found = self.index.nearest(beyond.point[None])
+                intruder = int(found.site[0])
+                if found.region[0] != self.region:
+                    raise GeometryError(f"a seam leaves the region at {place(last.point)}")
+                contact = self._neighbour(here.sites, beyond, intruder, found.foot[0])
+                if contact < 0:
+                    runs.append(self._run(room, count, here.sites))
+                    return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
+                new = intruder
+            elif why == JOINED:
+                kept, at = self._joining(room, count, here.sites)
+                runs.append(self._run(room, kept, here.sites))
+                return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
+            else:
+                new = int(self._towards(beyond.point, beyond.feet[contact : contact + 1]).site[0])
+            kept, at = self._crossing(room, count, here.sites, contact)
+            runs.append(self._run(room, kept, here.sites))
+            if self._merged(at):
+                return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
+            sites = tuple(new if k == contact else s for k, s in enumerate(here.sites))
+            switched = self.state(sites, at.point, at.feet, at.tangent)
+            if switched is None or not self._goes_on(switched):
+                return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
+            here = switched
         raise GeometryError(f"the seam from {place(start.point)} does not end")
 
     def state(self, sites: Sequence[int], point: Array, feet: Array, along: Array) -> State | None:
         """The point of a seam next to `point`, travelling in the sense of `along`."""
-        found = equidistant(
-            self._boundary, self._index.sites, np.array([sites]), point[None], feet[None]
-        )
-        if not found.converged[0]:
+        room = self._room(len(sites))
+        room.feet[: len(sites)] = feet
+        which = np.array(sites, dtype=np.int64)
+        x, y, z = (float(v) for v in point)
+        dx, dy, dz = (float(v) for v in along)
+        if not settle(self.table, which, room, 0, x, y, z, dx, dy, dz, self.size, True):
             return None
-        gradients = (found.points[0] - found.feet[0]) / found.radius[0]
-        rays = seam_rays(gradients)
-        if len(rays) < 2:
-            return None
-        ray = max(rays, key=lambda r: float(r.direction @ along))
-        return State(
-            found.points[0],
-            float(found.radius[0]),
-            tuple(sites),
-            found.feet[0],
-            ray.direction,
-            ray.slope,
-        )
+        return self._get(room, 0, tuple(sites))
 
     def holds(self, state: State) -> bool:
         """Whether a point is truly on the skeleton, with these sites."""
-        return self._check(state).same(state.sites)
+        towards = state.point + TOWARDS * (state.feet - state.point)
+        found = self.index.nearest(np.concatenate([state.point[None], towards]))
+        slack = TOUCH * self.size
+        return bool(
+            found.region[0] == self.region
+            and found.distance[0] >= state.radius - slack
+            and (found.distance[1:] <= (1 - TOWARDS) * state.radius + slack).all()
+        )
 
-    def turned(self, state: State) -> State:
-        """The same point, travelling the other way."""
-        return replace(state, tangent=-state.tangent, slope=-state.slope)
-
-    def settled(self, point: Array, feet: Array, along: Array) -> State:
+    def settled(self, point: Array, feet: Array, along: Array) -> State | None:
         """The point of a seam next to `point`, whose contacts have feet near the given ones.
 
         Where a foot is shared by several sites (on an edge), a query from a little way towards it
         tells which of them is touched from here.
         """
-        sites = tuple(int(k) for k in self._towards(point, feet).site)
-        for _ in range(4):
+        before: set[tuple[int, ...]] = set()
+        for _ in range(6):
+            sites = tuple(int(k) for k in self._towards(point, feet).site)
+            if sites in before:
+                return None
+            before.add(sites)
             state = self.state(sites, point, feet, along)
             if state is None:
-                break
+                return None
             if self.holds(state):
                 return state
-            sites = tuple(int(k) for k in self._towards(state.point, state.feet).site)
-        raise GeometryError(f"the seam near {place(point)} cannot be followed")
+            point, feet = state.point, state.feet
+        return None
 
     def _towards(self, point: Array, feet: Array) -> Nearest:
-        return self._index.nearest(point + TOWARDS * (feet - point))
+        return self.index.nearest(point + TOWARDS * (feet - point))
 
-    def _step(self, here: State, step: float) -> State | None:
-        moved = self.state(here.sites, here.point + step * here.tangent, here.feet, here.tangent)
-        if moved is None:
-            return None
-        way = moved.point - here.point
-        length = float(norm(way))
-        if not 0.5 * step <= length <= 1.5 * step:
-            return None
-        bend = float(moved.tangent @ here.tangent)
-        return moved if bend >= np.cos(TURNING) and way @ here.tangent > 0.9 * length else None
+    def _merged(self, state: State) -> bool:
+        """Whether two contacts have run together."""
+        m = len(state.feet)
+        gaps = norm(state.feet[:, None] - state.feet[None])[np.triu_indices(m, 1)]
+        return bool((gaps <= MERGED * state.radius).any())
 
-    def _check(self, state: State) -> _Check:
-        towards = state.point + TOWARDS * (state.feet - state.point)
-        found = self._index.nearest(np.concatenate([state.point[None], towards]))
-        slack = TOUCH * self._size
-        if found.region[0] != self._region or found.distance[0] < state.radius - slack:
-            return _Check(int(found.site[0]), state.sites)
-        lost = found.distance[1:] > (1 - TOWARDS) * state.radius + slack
-        sites = tuple(
-            int(new) if gone else old
-            for old, new, gone in zip(state.sites, found.site[1:], lost, strict=True)
-        )
-        return _Check(-1, sites)
+    def _goes_on(self, state: State) -> bool:
+        """Whether a seam goes on with all its contacts, and no more, at a trim."""
+        touching = self.contacts.at(state.point, SLACK * self.size)
+        if len(touching.feet) == 3 == len(state.sites):
+            return True
+        if len(touching.feet) != len(state.sites):
+            return False
+        ahead = state.point + AHEAD * state.radius * state.tangent
+        found = self.state(state.sites, ahead, state.feet, state.tangent)
+        return found is not None and self.holds(found)
 
-    def _last_before(self, here: State, step: float) -> tuple[State, _Check]:
-        """The last point of the seam before something changes, and the change."""
-        low, high = 0.0, step
-        last, change = here, None
-        for _ in range(HALVINGS):
-            if high - low <= 1e-14 * self._size:
-                break
-            middle = (low + high) / 2
-            moved = self._step(here, middle)
-            if moved is None:
-                high = middle
+    def _neighbour(self, sites: tuple[int, ...], beyond: State, intruder: int, foot: Array) -> int:
+        """The contact whose site the intruder continues over an edge, -1 if there is none."""
+        gaps = norm(beyond.feet - foot)
+        contact = int(np.argmin(gaps))
+        if gaps[contact] > 0.01 * beyond.radius:
+            return -1
+        return contact if intruder in self.contacts.neighbours(sites[contact]) else -1
+
+    def _crossing(
+        self, room: Track, count: int, sites: tuple[int, ...], contact: int
+    ) -> tuple[int, State]:
+        """Where a contact's foot leaves its site near the last of `count` rows.
+
+        Returns:
+            The number of rows up to there, and the point; it is put into the last of them.
+        """
+        beyond = self._get(room, count, sites)
+        found = self._wall_near(room, count, sites, sites[contact], beyond.feet[contact])
+        if found is None:
+            raise GeometryError(
+                f"a seam cannot be followed past the trim near {place(room.points[count - 1])}"
+            )
+        base, state, spot = found
+        if float(norm(state.feet[contact] - spot)) <= FOOT_ON_EDGE * self.size:
+            state.feet[contact] = spot
+        return self._cut(room, base, state), state
+
+    def _joining(self, room: Track, count: int, sites: tuple[int, ...]) -> tuple[int, State]:
+        """Where a further contact joins those of a seam, near the last of `count` rows.
+
+        Up to there the distance to it is greater in second order, so that its foot, too, passes to
+        another site there.
+        """
+        beyond = self._get(room, count, sites)
+        touching = self.contacts.at(beyond.point, 1e-10 * self.size)
+        best: tuple[int, State, Array] | None = None
+        for foot, members in zip(touching.feet, touching.sites, strict=True):
+            if float(norm(beyond.feet - foot).min()) <= APART * beyond.radius:
                 continue
-            check = self._check(moved)
-            if check.same(moved.sites):
-                low, last = middle, moved
-            else:
-                high, change = middle, check
-        if change is None:
-            moved = self._step(here, step)
-            if moved is None:
-                raise GeometryError(f"a seam cannot be followed past {place(here.point)}")
-            change = self._check(moved)
-        return last, change
+            for site in members:
+                found = self._wall_near(room, count, sites, site, foot)
+                if found is not None and (best is None or found[0] > best[0]):
+                    best = found
+        if best is None:
+            return count, self._get(room, count - 1, sites)
+        return self._cut(room, best[0], best[1]), best[1]
 
-    def _switched(self, state: State, sites: tuple[int, ...]) -> State:
-        """The same point with neighbouring sites."""
-        changed = self.state(sites, state.point, state.feet, state.tangent)
-        if changed is None:
-            raise GeometryError(f"a seam cannot be followed past the trim {place(state.point)}")
-        return changed
+    def _wall_near(
+        self, room: Track, count: int, sites: tuple[int, ...], site: int, foot: Array
+    ) -> tuple[int, State, Array] | None:
+        """Where a seam crosses a wall of a site, near the last of `count` rows.
 
-    def _returns(self, states: list[State]) -> bool:
-        """Whether the last step passed the seam's first point."""
-        first, before, here = states[0], states[-2], states[-1]
-        way = here.point - before.point
-        along = float((first.point - before.point) @ way) / float(way @ way)
-        off = float(norm(first.point - before.point - along * way))
-        return (
-            0 < along <= 1
-            and off <= 0.1 * float(norm(way))
-            and first.sites == here.sites
-            and float(first.tangent @ here.tangent) > 0
+        Args:
+            room, count: points of the seam; the row behind them is beyond the wall.
+            sites: of the seam.
+            site: whose foot leaves it.
+            foot: that foot beyond the wall, close to the wall's edge.
+
+        Returns:
+            The row from which the wall is ahead, the point, and the point of the edge.
+        """
+        which = np.array(sites, dtype=np.int64)
+        spare = count + 1
+        best: tuple[float, int, State, Array] | None = None
+        for wall in self._walls.of(site):
+            for base in range(count - 1, max(count - 4, -1), -1):
+                # from a row before the change to the point beyond it
+                high = float(norm(room.points[count] - room.points[base]))
+                low = 0.0 if base else -1e-3 * high - 1e-6 * self.size
+                spot = np.array(foot)
+                if not cross(
+                    self.table,
+                    which,
+                    room,
+                    base,
+                    spare,
+                    low,
+                    1.02 * high + 1e-6 * self.size,
+                    spot,
+                    wall.edge,
+                    wall.carrier,
+                    wall.vertex,
+                    self.size,
+                ):
+                    continue
+                off = float(norm(spot - foot))
+                if off <= NEAR_WALL * self.size and (best is None or off < best[0]):
+                    best = (off, base, self._get(room, spare, sites), spot)
+                break
+        return None if best is None else best[1:]
+
+    def _cut(self, room: Track, base: int, state: State) -> int:
+        """Put a point behind row `base`, instead of a row at it; return how many rows there are."""
+        kept = base + 1
+        while kept > 1 and norm(room.points[kept - 1] - state.point) <= SAME * self.size:
+            kept -= 1
+        if kept > 1 or norm(room.points[0] - state.point) > SAME * self.size:
+            kept += 1
+        self._put(room, kept - 1, state)
+        return kept
+
+    def _room(self, contacts: int) -> Track:
+        if contacts not in self._tracks:
+            self._tracks[contacts] = track(contacts, ROOM)
+        return self._tracks[contacts]
+
+    def _put(self, room: Track, row: int, state: State) -> None:
+        m = len(state.sites)
+        room.points[row], room.radius[row] = state.point, state.radius
+        room.tangents[row], room.slopes[row] = state.tangent, state.slope
+        room.feet[row * m : row * m + m] = state.feet
+
+    def _get(self, room: Track, row: int, sites: tuple[int, ...]) -> State:
+        m = len(sites)
+        return State(
+            room.points[row].copy(),
+            float(room.radius[row]),
+            sites,
+            room.feet[row * m : row * m + m].copy(),
+            room.tangents[row].copy(),
+            float(room.slopes[row]),
+        )
+
+    def _run(self, room: Track, count: int, sites: tuple[int, ...]) -> Run:
+        m = len(sites)
+        return Run(
+            sites,
+            room.points[:count].copy(),
+            room.radius[:count].copy(),
+            room.feet[: count * m].reshape(count, m, 3).copy(),
         )

@@ -1,38 +1,75 @@
 """Points on seams, found from the footprint.
 
 Every boundary point q has a maximal ball that touches the boundary there and once more, at a far
-site. Between two points of one face whose far sites differ, bisection finds where the site changes;
-if the far foot jumps there, the ball has three contacts and its centre lies on a seam.
+site. Where the far foot jumps between two neighbouring points of a face, the ball has three
+contacts and its centre lies on a seam.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites import SiteIndex
-from decomp.skeleton.balls import Balls, inscribed_balls
-from decomp.vectors import Array, Bools, norm
+from decomp.skeleton.balls import Balls, balls_at
+from decomp.skeleton.equidistance import equidistant
+from decomp.skeleton.probing import TOWARDS
+from decomp.skeleton.shrinking import OSCULATES, TOUCHES
+from decomp.vectors import Array, Bools, Ints, norm
 
-BISECTIONS = 24
-NEIGHBOURS = 3
+BISECTIONS = 18
+NEIGHBOURS = 4
+LEAST = 60
+"""Samples of the smallest face."""
+MOVED = 0.01
+JUMP = 50.0
+"""A far foot jumps if it moves by more than this multiple of the near one's way."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seeds:
+    """Points close to seams.
+
+    Args:
+        points: (k, 3).
+        feet: (k, 3, 3), of three contacts.
+    """
+
+    points: Array
+    feet: Array
 
 
 def seam_seeds(
     index: SiteIndex, boundary: RegionBoundary, region: int, samples: int, seed: int
-) -> Iterator[tuple[tuple[int, ...], Array, Array]]:
-    """Yield (sites, point, feet) of points close to seams."""
+) -> Seeds:
+    """Look for seams over all faces of a region.
+
+    Args:
+        index: nearest-site queries of the model.
+        boundary: of the region.
+        region: its index.
+        samples: boundary points to start from.
+        seed: of the random numbers that place them.
+    """
     rng = np.random.default_rng(seed)
     share = sum(face.area for face in boundary.faces)
+    pairs = []
     for number, face in enumerate(boundary.faces):
-        count = max(50, int(samples * face.area / share))
+        count = max(LEAST, int(samples * face.area / share))
         first, second = _pairs(index, boundary, region, number, count, rng)
-        if not len(first):
-            continue
-        yield from _between(index, boundary, region, number, first, second)
+        pairs.append((np.full(len(first), number), first, second))
+    faces = np.concatenate([p[0] for p in pairs])
+    return _between(
+        index,
+        boundary,
+        region,
+        faces,
+        np.concatenate([p[1] for p in pairs]),
+        np.concatenate([p[2] for p in pairs]),
+    )
 
 
 def _pairs(
@@ -60,8 +97,9 @@ def _pairs(
     if len(points) < 2:
         return np.empty((0, 3)), np.empty((0, 3))
     _, near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, len(points)))
-    pairs = {tuple(sorted((i, int(j)))) for i, row in enumerate(near) for j in row[1:]}
-    ordered = np.array(sorted(pairs), dtype=np.int64)
+    one = np.repeat(np.arange(len(points)), near.shape[1] - 1)
+    other = near[:, 1:].ravel()
+    ordered = np.unique(np.sort(np.stack([one, other], axis=1), axis=1), axis=0)
     return points[ordered[:, 0]], points[ordered[:, 1]]
 
 
@@ -69,38 +107,87 @@ def _between(
     index: SiteIndex,
     boundary: RegionBoundary,
     region: int,
-    number: int,
+    faces: Ints,
     first: Array,
     second: Array,
-) -> Iterator[tuple[tuple[int, ...], Array, Array]]:
-    face = boundary.faces[number]
-    carrier = boundary.carriers[face.carrier]
+) -> Seeds:
+    def normals(which: Ints, points: Array) -> Array:
+        result = np.empty_like(points)
+        for number in np.unique(which):
+            face = boundary.faces[number]
+            rows = which == number
+            result[rows] = -face.outward * boundary.carriers[face.carrier].normal(points[rows])
+        return result
 
-    def balls(points: Array) -> Balls:
-        inward = -face.outward * carrier.normal(points)
-        return inscribed_balls(index, boundary, region, points, inward)
+    def project(which: Ints, points: Array) -> Array:
+        result = np.empty_like(points)
+        for number in np.unique(which):
+            rows = which == number
+            result[rows] = boundary.carriers[boundary.faces[number].carrier].project(points[rows])
+        return result
 
-    low, high = balls(first), balls(second)
-    differ = (low.site != high.site) & (low.site >= 0) & (high.site >= 0)
-    first, second = first[differ], second[differ]
-    if not len(first):
-        return
-    low, high = balls(first), balls(second)
-    for _ in range(BISECTIONS):
-        middle = carrier.project((first + second) / 2)
-        there = balls(middle)
-        keep = there.site == low.site
-        first = np.where(keep[:, None], middle, first)
-        second = np.where(keep[:, None], second, middle)
-        low, high = _chosen(keep, there, low), _chosen(keep, high, there)
+    def balls(which: Ints, points: Array) -> Balls:
+        found, state = balls_at(index, boundary, region, points, normals(which, points))
+        # a point between two of a face can be off it
+        found.site[(state != TOUCHES) & (state != OSCULATES)] = -1
+        return found
+
     size = boundary.diagonal
-    jump = (norm(low.foot - high.foot) > 1e-4 * size) & (
-        norm(low.centre - high.centre) < 1e-4 * size
+    both, place = np.unique(np.concatenate([first, second]), axis=0, return_inverse=True)
+    there = np.zeros(len(both), dtype=np.int64)
+    there[place] = np.concatenate([faces, faces])
+    every = balls(there, both)
+    low, high = _rows(every, place[: len(first)]), _rows(every, place[len(first) :])
+    keep = _differ(low, high, first, second)
+    first, second, faces = first[keep], second[keep], faces[keep]
+    low, high = _rows(low, keep), _rows(high, keep)
+    for _ in range(BISECTIONS):
+        if not len(first):
+            break
+        middle = project(faces, (first + second) / 2)
+        new = balls(faces, middle)
+        # the half in which the far foot moves more
+        to_low, to_high = norm(new.foot - low.foot), norm(new.foot - high.foot)
+        upper = to_low <= to_high
+        first = np.where(upper[:, None], middle, first)
+        second = np.where(upper[:, None], second, middle)
+        low, high = _chosen(upper, new, low), _chosen(upper, high, new)
+        keep = _differ(low, high, first, second)
+        first, second, faces = first[keep], second[keep], faces[keep]
+        low, high = _rows(low, keep), _rows(high, keep)
+    if not len(first):
+        return Seeds(np.empty((0, 3)), np.empty((0, 3, 3)))
+    near = norm(low.centre - high.centre) <= 1e-3 * np.minimum(low.radius, high.radius)
+    near &= norm(low.foot - high.foot) > JUMP * norm(first - second)
+    near &= low.radius > 1e-6 * size
+    feet = np.stack([first, low.foot, high.foot], axis=1)[near]
+    return _exact(index, boundary, low.centre[near], feet)
+
+
+def _exact(index: SiteIndex, boundary: RegionBoundary, points: Array, feet: Array) -> Seeds:
+    """Seeds put onto the seams of their sites."""
+    towards = points[:, None] + TOWARDS * (feet - points[:, None])
+    which = index.nearest(towards.reshape(-1, 3)).site.reshape(-1, 3).astype(np.int64)
+    found = equidistant(boundary, index.sites, which, points, feet)
+    good = found.converged & (norm(found.points - points) <= MOVED * found.radius)
+    return Seeds(
+        np.where(good[:, None], found.points, points),
+        np.where(good[:, None, None], found.feet, feet),
     )
-    own = index.nearest(first + 1e-3 * (low.centre - first)).site
-    for k in np.flatnonzero(jump & (low.radius > 1e-5 * size)):
-        sites = (int(own[k]), int(low.site[k]), int(high.site[k]))
-        yield sites, low.centre[k], np.array([first[k], low.foot[k], high.foot[k]])
+
+
+def _differ(low: Balls, high: Balls, first: Array, second: Array) -> Bools:
+    """Whether the far foot changes more than the near one explains."""
+    way = norm(first - second)
+    return np.asarray(
+        (low.site >= 0)
+        & (high.site >= 0)
+        & ((low.site != high.site) | (norm(low.foot - high.foot) > 4 * way))
+    )
+
+
+def _rows(balls: Balls, which: Ints | Bools) -> Balls:
+    return Balls(balls.centre[which], balls.radius[which], balls.site[which], balls.foot[which])
 
 
 def _chosen(first: Bools, a: Balls, b: Balls) -> Balls:
