@@ -113,3 +113,16 @@ def frame(axis: Array) -> tuple[Array, Array]:
 def place(point: Array) -> str:
     """A point as text for messages."""
     return "(" + ", ".join(f"{x + 0.0:.6g}" for x in point) + ")"
+
+
+BLOCK = 4096
+
+
+def nearest_rows(known: Array, points: Array) -> Ints:
+    """For each of points (k, 3) the nearest of some known ones."""
+    rows = np.empty(len(points), dtype=np.int64)
+    for start in range(0, len(points), BLOCK):
+        block = points[start : start + BLOCK]
+        gap = ((block[:, None] - known[None]) ** 2).sum(axis=2)
+        rows[start : start + BLOCK] = np.argmin(gap, axis=1)
+    return rows

@@ -19,8 +19,9 @@ from decomp.skeleton.normal_curves import EdgeNormals, NormalCurve, VertexNormal
 from decomp.skeleton.pieces import CurvePiece
 from decomp.skeleton.region_curves import RegionCurves
 from decomp.skeleton.sampling import sampled
-from decomp.skeleton.sheets import SheetMaker, SheetPart
+from decomp.skeleton.self_sheets import SelfSheetMaker
 from decomp.skeleton.sheet_surface import SheetSurface
+from decomp.skeleton.sheets import SheetMaker, SheetPart
 from decomp.skeleton.trim_surfaces import RuledSurface, strip
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 
@@ -167,12 +168,12 @@ class RegionAssembler:
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
         kinks = self._kinks(nodes)
         maker = SheetMaker(self._index, incidence, points)
+        own = SelfSheetMaker(self._index, incidence, points)
         sheets = []
         for pair in sorted(borders):
             if pair[0] == pair[1]:
-                name = incidence.sites[pair[0]].name
-                where = place(points[borders[pair][0][0]])
-                raise GeometryError(f"sheets of the edge {name} with itself, near {where}")
+                sheets.extend(own.sheets(pair[0], borders[pair]))
+                continue
             sheets.extend(maker.sheets(pair, borders[pair], kinks.get(pair, [])))
         return sheets
 
@@ -251,7 +252,7 @@ class _TrimMaker:
             upper, upper_s = self._upper(number, curve)
             triangles = self._strip(curve, self._lower(curve), upper, upper_s)
             if len(triangles):
-                found.append(self._patch(curve, triangles))
+                found.append(self._patch(curve, triangles, upper, upper_s))
         return found
 
     def _lower(self, curve: NormalCurve) -> Ints:
@@ -351,10 +352,14 @@ class _TrimMaker:
         body, s = body[order], s[order]
         return strip(lower, lower_s, np.append(body, body[0]), np.append(s, s[0] + period))
 
-    def _patch(self, curve: NormalCurve, triangles: Ints) -> tuple[TrimSurface, Patch]:
+    def _patch(
+        self, curve: NormalCurve, triangles: Ints, upper: Ints, upper_s: Array
+    ) -> tuple[TrimSurface, Patch]:
         """Orient: normals point from the higher-dimensional site's side to the other's."""
         near, far = curve.sites[1], curve.sites[0]
-        surface = RuledSurface(curve, self._sense(curve))
+        s = np.linspace(curve.start, curve.end, 257)
+        height = np.interp(s, upper_s, norm(self._points[upper] - curve.feet(upper_s)))
+        surface = RuledSurface(curve, self._sense(curve), s, height)
         corners = self._points[triangles]
         normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         wanted = surface.normal(corners.mean(axis=1))
@@ -367,7 +372,11 @@ class _TrimMaker:
         """The sign that makes normals point from the second site's side to the first's."""
         middle = np.array([(curve.start + curve.end) / 2])
         feet, ways = curve.feet(middle), curve.directions(middle)
-        up = RuledSurface(curve, 1.0).normal(feet + 0.1 * self._size * ways)[0]
+        h = 1e-4 * (curve.end - curve.start)
+        either = curve.feet(middle + h) - curve.feet(middle - h)
+        if isinstance(curve, VertexNormals):
+            either = curve.directions(middle + h) - curve.directions(middle - h)
+        up = cross(either, ways)[0]
         away = self._off_second(curve, feet[0])
         return 1.0 if float(up @ away) > 0 else -1.0
 

@@ -12,9 +12,7 @@ from decomp.skeleton.incidence import Incidence
 from decomp.skeleton.normal_curves import NormalCurve
 from decomp.skeleton.reflexive import Locus
 from decomp.skeleton.trims import solve_radius
-from decomp.vectors import Array, Ints, norm, place
-
-BLOCK = 4096
+from decomp.vectors import Array, Ints, nearest_rows, norm, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +38,7 @@ class SeamCurve:
         """
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
         feet = self.feet[nearest_rows(self.points, points)]
-        found = equidistant(
-            self.incidence.boundary, self.incidence.sites, which, points, feet
-        )
+        found = equidistant(self.incidence.boundary, self.incidence.sites, which, points, feet)
         if not found.converged.all():
             bad = points[~found.converged][0]
             raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
@@ -101,13 +97,3 @@ class LocusCurve:
     def place(self, points: Array) -> Array:
         """Move points (k, 3) to their feet on the locus."""
         return self.locus.point(self.locus.parameter(points))
-
-
-def nearest_rows(known: Array, points: Array) -> Ints:
-    """For each of points (k, 3) the nearest of some known ones."""
-    rows = np.empty(len(points), dtype=np.int64)
-    for start in range(0, len(points), BLOCK):
-        block = points[start : start + BLOCK]
-        gap = ((block[:, None] - known[None]) ** 2).sum(axis=2)
-        rows[start : start + BLOCK] = np.argmin(gap, axis=1)
-    return rows

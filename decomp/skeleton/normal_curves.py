@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from decomp.boundary.topology import Convexity, Edge
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.skeleton.incidence import Incidence, angle_between
-from decomp.vectors import Array, cross
+from decomp.vectors import Array, cross, dot, nearest_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +44,11 @@ class NormalCurve(ABC):
         """Unit directions (k, 3) into the region."""
 
     @abstractmethod
-    def parameter(self, points: Array) -> Array:
-        """Parameters (k,) of points (k, 3) close to the ruled surface of the normals."""
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
+        """Parameters (k,) of points (k, 3) close to the ruled surface of the normals.
+
+        Where several normals pass through a point, the one whose parameter is close to `near`.
+        """
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,35 +65,44 @@ class EdgeNormals(NormalCurve):
     def directions(self, s: Array) -> Array:
         return self.incidence.inward(self.face, self.feet(s))
 
-    def parameter(self, points: Array) -> Array:
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
         curve = self.edge.curve
         if isinstance(curve, (Line, Circle)):
             t = curve.parameter(points)
         else:
-            t = self._nearest(points)
+            t = self._descend(points, self._nearest(points) if near is None else near)
         if curve.closed:
-            middle = (self.start + self.end) / 2
+            middle = np.asarray((self.start + self.end) / 2 if near is None else near)
             t = t + curve.period * np.round((middle - t) / curve.period)
         return np.asarray(t)
 
     def _nearest(self, points: Array) -> Array:
-        """Foot parameters on the edge: the nearest sample, then Newton on (p - x).x' = 0."""
-        samples = self.edge.samples
-        gap = np.linalg.norm(points[:, None] - samples[None], axis=2)
-        t = self.edge.curve.parameter(samples[np.argmin(gap, axis=1)])
-        step = 1e-5 * (self.end - self.start)
+        """Parameters of the samples of the edge that are nearest to points."""
+        samples, s = self._samples
+        return np.asarray(s[nearest_rows(samples, points)])
+
+    @cached_property
+    def _samples(self) -> tuple[Array, Array]:
+        s = np.linspace(self.start, self.end, 257)
+        return self.feet(s), s
+
+    def _descend(self, points: Array, guess: Array) -> Array:
+        """Newton's method on (p - x).x' = 0, with differences for x''."""
+        t = np.array(guess, dtype=np.float64)
+        h = 1e-5 * (self.end - self.start)
+        limit = 0.05 * (self.end - self.start)
+        rows = np.arange(len(t))
         for _ in range(30):
-            x, d = self.edge.curve.point(t), self.edge.curve.derivative(t)
-            ahead = self.edge.curve.derivative(t + step)
-            f = np.einsum("ij,ij->i", points - x, d)
-            bend = np.einsum("ij,ij->i", points - x, (ahead - d) / step)
-            slope = bend - np.einsum("ij,ij->i", d, d)
-            move = np.where(slope < 0, -f / np.where(slope < 0, slope, 1.0), 0.0)
-            limit = 0.05 * (self.end - self.start)
-            t = t + np.clip(move, -limit, limit)
-            if np.abs(move).max(initial=0.0) <= 1e-15 * (1 + np.abs(t).max(initial=0.0)):
+            x, d = self.edge.curve.point(t[rows]), self.edge.curve.derivative(t[rows])
+            ahead = self.edge.curve.derivative(t[rows] + h)
+            away = points[rows] - x
+            slope = dot(away, (ahead - d) / h) - dot(d, d)
+            move = np.where(slope < 0, -dot(away, d) / np.where(slope < 0, slope, 1.0), 0.0)
+            t[rows] += np.clip(move, -limit, limit)
+            rows = rows[np.abs(move) > 1e-15 * (1 + np.abs(t[rows]))]
+            if not len(rows):
                 break
-        return np.asarray(t)
+        return t
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +120,7 @@ class VertexNormals(NormalCurve):
         s = np.asarray(s)[..., None]
         return np.asarray(np.cos(s) * self.first + np.sin(s) * self.second)
 
-    def parameter(self, points: Array) -> Array:
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
         away = points - self.vertex
         return np.arctan2(away @ self.second, away @ self.first)
 
@@ -129,7 +142,7 @@ class VertexRay(NormalCurve):
     def directions(self, s: Array) -> Array:
         return np.broadcast_to(self.direction, (*np.shape(s), 3)).copy()
 
-    def parameter(self, points: Array) -> Array:
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
         return np.asarray((points - self.vertex) @ self.direction)
 
 
@@ -176,7 +189,7 @@ def _fans(incidence: Incidence, number: int, site: int) -> list[NormalCurve]:
 
 
 def reflex_rays(incidence: Incidence) -> list[tuple[int, int, Array]]:
-    """(vertex, face, direction) where two reentrant edges of a face meet at a reflex angle in it."""
+    """(vertex, face, direction) where reentrant edges of a face meet at a reflex angle in it."""
     boundary = incidence.boundary
     found = []
     for number, vertex in enumerate(boundary.vertices):

@@ -20,6 +20,7 @@ from decomp.skeleton.incidence import Incidence
 from decomp.skeleton.normal_curves import NormalCurve, normal_curves
 from decomp.skeleton.pieces import CurvePiece, network
 from decomp.skeleton.reflexive import ReflexivePart, reflexive_parts
+from decomp.skeleton.rims import rim_pieces
 from decomp.skeleton.sectors import with_pairs
 from decomp.vectors import Array
 
@@ -78,6 +79,7 @@ def region_curves(
         *seam_pieces(incidence, graph.seams),
         *trims,
         *ray_pieces(index, incidence),
+        *rim_pieces(index, incidence),
         *reflexive_pieces(parts),
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]

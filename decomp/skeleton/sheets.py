@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.complex.model import SurfaceElement
 from decomp.complex.domains import Domain, domain_of
 from decomp.complex.planar import PLANE, Triangulation, crossings, triangulate
 from decomp.errors import GeometryError
@@ -50,12 +51,12 @@ class SheetPart:
 
     Args:
         sites: a and b.
-        surface: that it lies on.
+        surface: that it lies on: Vor(a, b), or a plane of symmetry if a is b.
         triangles: (m, 3) vertices, their normals pointing from a's side to b's.
     """
 
     sites: tuple[int, int]
-    surface: SheetSurface
+    surface: SurfaceElement
     triangles: Ints
 
 
@@ -90,7 +91,7 @@ class SheetMaker:
             CrossingError: the polylines must be finer.
             GeometryError: a component is neither a sheet nor none: a curve is missing.
         """
-        segments = _segments(lines)
+        segments = segments_of(lines)
         used = np.unique(np.concatenate([segments.ravel(), np.array(isolated, dtype=np.int64)]))
         local = np.searchsorted(used, segments)
         points = self._points[used]
@@ -244,9 +245,7 @@ class SheetMaker:
                 where = points[found.triangles[rows]].mean(axis=1)[owners == number]
                 odd = where[votes != (share > 0.5)][0]
                 names = " and ".join(self._incidence.sites[s].name for s in pair)
-                raise GeometryError(
-                    f"the sheet between {names} has no clear end near {place(odd)}"
-                )
+                raise GeometryError(f"the sheet between {names} has no clear end near {place(odd)}")
             if share > 0.5:
                 kept.append(number)
         return kept
@@ -275,7 +274,7 @@ class SheetMaker:
         return triangles if agree >= 0 else np.ascontiguousarray(triangles[:, ::-1])
 
 
-def _segments(lines: Sequence[Ints]) -> Ints:
+def segments_of(lines: Sequence[Ints]) -> Ints:
     """Unique segments (k, 2) of polylines."""
     parts = [np.stack([line[:-1], line[1:]], axis=1) for line in lines if len(line) > 1]
     if not parts:
