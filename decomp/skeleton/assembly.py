@@ -14,6 +14,7 @@ from decomp.complex.model import Line, LineKind, Patch, PatchKind
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.skeleton.balls import inscribed_balls
+from decomp.skeleton.curve_elements import RayCurve
 from decomp.skeleton.curves_of_region import LocusRun
 from decomp.skeleton.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.skeleton.pieces import CurvePiece
@@ -52,6 +53,7 @@ class RegionParts:
         lines: one for each curve piece.
         sheets: all of them.
         trims: trim surfaces as (sites: face's or vertex's side first, triangles, surface).
+        rulings: normals in which trim surfaces end, shared by those that meet there.
         node: the vertex of each node of the curves.
     """
 
@@ -59,6 +61,7 @@ class RegionParts:
     lines: list[Line]
     sheets: list[SheetPart]
     trims: list[tuple[TrimSurface, Patch]] = field(default_factory=list)
+    rulings: list[Line] = field(default_factory=list)
     node: list[int] = field(default_factory=list)
 
 
@@ -123,7 +126,9 @@ class RegionAssembler:
             sheets,
             node=nodes,
         )
-        parts.trims.extend(_TrimMaker(self._curves, self._boundary, points, lines).surfaces())
+        maker = _TrimMaker(self._curves, self._boundary, points, lines)
+        parts.trims.extend(maker.surfaces())
+        parts.rulings.extend(maker.rulings())
         return parts
 
     def _add(self, point: Array) -> int:
@@ -240,6 +245,7 @@ class _TrimMaker:
         self._curves, self._boundary = curves, boundary
         self._points, self._lines = points, lines
         self._owner = owners(curves)
+        self._rulings: set[tuple[int, int]] = set()
         self._size = curves.incidence.boundary.diagonal
 
     def surfaces(self) -> list[tuple[TrimSurface, Patch]]:
@@ -250,9 +256,29 @@ class _TrimMaker:
             if one == two:
                 continue
             upper, upper_s = self._upper(number, curve)
-            triangles = self._strip(curve, self._lower(curve), upper, upper_s)
+            lower = self._lower(curve)
+            triangles = self._strip(curve, lower, upper, upper_s)
+            if not curve.closed:
+                for k in (0, -1):
+                    a, b = int(lower[k]), int(upper[k])
+                    self._rulings.add((min(a, b), max(a, b)))
             if len(triangles):
                 found.append(self._patch(curve, triangles, upper, upper_s))
+        return found
+
+    def rulings(self) -> list[Line]:
+        """The normals in which the surfaces end, as far as they are no other lines."""
+        known = {
+            (int(min(side)), int(max(side)))
+            for line in self._lines
+            for side in zip(line[:-1], line[1:], strict=True)
+        }
+        found = []
+        for a, b in sorted(self._rulings - known):
+            if a != b:
+                way = self._points[b] - self._points[a]
+                curve = RayCurve(self._points[a], way / float(norm(way)))
+                found.append(Line(LineKind.TRIM, curve, np.array([a, b], dtype=np.int64)))
         return found
 
     def _lower(self, curve: NormalCurve) -> Ints:

@@ -186,7 +186,7 @@ class _Whole:
                 patches.append(patch)
             self._trims.append(own)
             self._line.append([len(lines) + k for k in range(len(part.lines))])
-            lines += part.lines
+            lines += part.lines + part.rulings
         points = np.concatenate([surface.points, *(part.points for part in parts)])
         given = Complex(points, tuple(patches), tuple(lines))
         self.complex, self._number = refined(given, fineness * geometry.diagonal)

@@ -140,11 +140,13 @@ def support(
         u = vx * data[k, 3] + vy * data[k, 4] + vz * data[k, 5]
         v = vx * data[k, 6] + vy * data[k, 7] + vz * data[k, 8]
         rho = sqrt(u * u + v * v)
-        if rho > 0.0:
-            u, v = data[k, 9] * (u / rho), data[k, 9] * (v / rho)
-            qx = data[k, 0] + u * data[k, 3] + v * data[k, 6]
-            qy = data[k, 1] + u * data[k, 4] + v * data[k, 7]
-            qz = data[k, 2] + u * data[k, 5] + v * data[k, 8]
+        if rho <= 1e-15 * data[k, 9]:
+            # on the axis every point of the circle is a foot
+            u, v, rho = 1.0, 0.0, 1.0
+        u, v = data[k, 9] * (u / rho), data[k, 9] * (v / rho)
+        qx = data[k, 0] + u * data[k, 3] + v * data[k, 6]
+        qy = data[k, 1] + u * data[k, 4] + v * data[k, 7]
+        qz = data[k, 2] + u * data[k, 5] + v * data[k, 8]
     elif kind == CURVE:
         a, b = table.flanks[k, 0], table.flanks[k, 1]
         qx, qy, qz = curve_foot(table.carriers, a, b, x, y, z, qx, qy, qz)
