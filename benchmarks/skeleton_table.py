@@ -22,8 +22,8 @@ from typing import Any
 import decomp
 from decomp.csg.solid import Solid
 from decomp.errors import DecompError
+from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.output.whole_file import write_whole
-from decomp.skeleton.result import RegionSkeleton, Skeleton
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 
@@ -57,10 +57,9 @@ def models() -> dict[str, Solid | Path]:
 
 def measured(name: str, balls: int) -> list[dict[str, Any]]:
     """Compute one model: a row for each region, with coverage measured anew by many balls."""
-    from decomp.skeleton.compute import skeleton
-
-    from decomp.skeleton.certificate_coverage import coverage
-    from decomp.skeleton.certificate_evidence import Evidence
+    from decomp.certificate.coverage import coverage
+    from decomp.certificate.evidence import Evidence
+    from decomp.compute import skeleton
 
     start = time.perf_counter()
     geometry = decomp.Geometry(models()[name])
@@ -76,7 +75,7 @@ def measured(name: str, balls: int) -> list[dict[str, Any]]:
 
 def row_of(skeleton: Skeleton, region: RegionSkeleton) -> dict[str, Any]:
     """What is told of a region."""
-    from decomp.skeleton.certificate import shortcomings
+    from decomp.certificate.certificate import shortcomings
 
     patches = skeleton.complex.patches
     return {

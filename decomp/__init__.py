@@ -1,4 +1,4 @@
-"""Exact boundaries and nearest-site queries of solids defined by constructive solid geometry.
+"""Exact boundaries and interior skeletons of solids defined by constructive solid geometry.
 
 >>> import decomp
 >>> plate = decomp.Block((0, 0, 0), (4, 4, 2), name="plate")
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from decomp.boundary.topology import Face as Face
     from decomp.boundary.topology import RegionBoundary as RegionBoundary
     from decomp.boundary.topology import Vertex as Vertex
+    from decomp.compute import skeleton as skeleton
     from decomp.csg.model import Model as Model
     from decomp.csg.model import Region as Region
     from decomp.csg.model import model as model
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from decomp.formats import load as load
     from decomp.formats import save as save
     from decomp.geometry import Geometry as Geometry
+    from decomp.medial.result import Skeleton as Skeleton
 
 _HOMES = {
     "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
@@ -54,9 +56,11 @@ _HOMES = {
         "Torus",
     ),
     "decomp.csg.solid": ("Solid", "intersection", "union"),
+    "decomp.compute": ("skeleton",),
     "decomp.errors": ("DecompError",),
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
+    "decomp.medial.result": ("Skeleton",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

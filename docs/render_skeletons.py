@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 import pyvista
 
+from decomp.medial.result import Skeleton
 from decomp.output.elements import KINDS, Elements, elements
-from decomp.skeleton.result import Skeleton
 
 SIZE = (1200, 900)
 VIEW = np.array([0.47, -0.74, 0.48])
@@ -121,7 +121,7 @@ def main() -> int:
     if options.dozen == (options.model is not None):
         parser.error("give a model file or --dozen")
 
-    from decomp.skeleton.compute import skeleton
+    from decomp.compute import skeleton
 
     if not options.dozen:
         draw(skeleton(options.model), options.output, options.wires)

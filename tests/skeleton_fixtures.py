@@ -10,10 +10,10 @@ import numpy as np
 import decomp
 from decomp.carriers import Carrier
 from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
+from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, Line, LineKind, Patch, PatchKind
 from decomp.curves.circle import Circle
-from decomp.skeleton.certificate_evidence import Evidence
-from decomp.skeleton.result import (
+from decomp.medial.result import (
     Certificate,
     Junction,
     Parity,

@@ -17,7 +17,7 @@ from scipy.sparse.csgraph import connected_components  # type: ignore[import-unt
 from decomp.boundary.topology import RegionBoundary
 from decomp.cells.surface import volume
 from decomp.complex.model import Complex
-from decomp.skeleton.result import Cell, Sheet
+from decomp.medial.result import Cell, Sheet
 
 NAMED_BY_FACES = 3
 """A cell with more faces is numbered instead."""

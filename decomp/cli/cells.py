@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from decomp.skeleton.result import Skeleton
+    from decomp.medial.result import Skeleton
 
 
 def register(commands: Any) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from decomp.skeleton.result import Skeleton
+    from decomp.medial.result import Skeleton
 
 TOLERANCE = 5e-4
 LARGEST = 0.1
@@ -37,9 +37,9 @@ def computed(options: argparse.Namespace) -> Skeleton:
     Raises:
         DecompError: the model cannot be read, is no solid, or its skeleton cannot be certified.
     """
+    from decomp.compute import skeleton
     from decomp.formats import load
     from decomp.geometry import Geometry
-    from decomp.skeleton.compute import skeleton
 
     with reporting(options.quiet) as report:
         report(f"reading {options.model.name}", 0.0)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from decomp.skeleton.result import Certificate, RegionSkeleton, Skeleton
+    from decomp.medial.result import Certificate, RegionSkeleton, Skeleton
 
 
 def register(commands: Any) -> None:
@@ -96,7 +96,7 @@ def _region_text(region: RegionSkeleton, tolerance: float, figures: bool) -> lis
 
 
 def _verdict(certificate: Certificate, tolerance: float) -> str:
-    from decomp.skeleton.certificate import shortcomings
+    from decomp.certificate.certificate import shortcomings
 
     short = shortcomings(certificate, tolerance)
     if short:
@@ -108,7 +108,7 @@ def _verdict(certificate: Certificate, tolerance: float) -> str:
 
 
 def _figures(certificate: Certificate, tolerance: float) -> list[str]:
-    from decomp.skeleton.certificate import limits, shortcomings
+    from decomp.certificate.certificate import limits, shortcomings
 
     short = shortcomings(certificate, tolerance)
     most = limits(tolerance)

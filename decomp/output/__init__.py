@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from decomp.errors import InputError
 
 if TYPE_CHECKING:
-    from decomp.skeleton.result import Skeleton
+    from decomp.medial.result import Skeleton
 
 SUFFIXES = (".vtu", ".ply", ".obj", ".json")
 CELL_FORMATS = ("stl", "obj", "ply")

@@ -10,9 +10,9 @@ import json
 from dataclasses import asdict
 from typing import Any
 
+from decomp.medial.result import Reflexive, RegionSkeleton, Skeleton
 from decomp.output.elements import first_seams, first_sheets
 from decomp.output.labels import site_labels
-from decomp.skeleton.result import Reflexive, RegionSkeleton, Skeleton
 
 
 def encoded(skeleton: Skeleton) -> bytes:

@@ -11,9 +11,9 @@ from typing import Any, Literal
 
 from decomp.cells.surface import cell_surface
 from decomp.errors import FileError, InputError
+from decomp.medial.result import Skeleton
 from decomp.output import CELL_FORMATS, obj, ply, stl
 from decomp.output.whole_file import write_whole
-from decomp.skeleton.result import Skeleton
 
 CellKind = Literal["skeleton", "face"]
 SURFACES = {"stl": stl.surface, "obj": obj.surface, "ply": ply.surface}

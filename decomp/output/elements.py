@@ -12,7 +12,7 @@ import numpy as np
 
 from decomp.cells.surface import used_points
 from decomp.complex.model import LineKind
-from decomp.skeleton.result import Parity, RegionSkeleton, Skeleton, SkeletonLine
+from decomp.medial.result import Parity, RegionSkeleton, Skeleton, SkeletonLine
 from decomp.vectors import Array, Ints
 
 KINDS = ("sheet", "seam", "trim", "rim", "reflexive", "face", "interface", "edge", "trim surface")

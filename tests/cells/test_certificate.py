@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.certificate.certificate import certified, explained, shortcomings
+from decomp.certificate.coverage import boundary_samples, random_points
+from decomp.certificate.distance import triangle_distance, triangle_tree
+from decomp.certificate.evidence import Evidence
+from decomp.certificate.placement import residual
 from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import GeometryError
+from decomp.medial.result import Certificate, Sheet
 from decomp.sites.site import SiteKind
-from decomp.skeleton.certificate import certified, explained, shortcomings
-from decomp.skeleton.certificate_coverage import boundary_samples, random_points
-from decomp.skeleton.certificate_distance import triangle_distance, triangle_tree
-from decomp.skeleton.certificate_evidence import Evidence
-from decomp.skeleton.certificate_placement import residual
-from decomp.skeleton.result import Certificate, Sheet
 from decomp.vectors import Array
 from tests.skeleton_fixtures import Flat, block, capsule
 from tests.solids import SOLIDS

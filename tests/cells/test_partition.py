@@ -7,7 +7,7 @@ import pytest
 
 from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
 from decomp.cells.surface import cell_surface, is_closed, open_edges, volume
-from decomp.skeleton.result import Cell
+from decomp.medial.result import Cell
 from tests.skeleton_fixtures import BLOCK_FACES, Made, block, capsule
 
 VOLUMES = (7 / 3, 7 / 3, 10 / 3, 10 / 3, 19 / 3, 19 / 3)

@@ -31,7 +31,7 @@ def computing(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[..., Any]],
 
     def put(function: Callable[..., Any]) -> None:
         module = SimpleNamespace(skeleton=function)
-        monkeypatch.setitem(sys.modules, "decomp.skeleton.compute", module)
+        monkeypatch.setitem(sys.modules, "decomp.compute", module)
 
     put(lambda geometry, tolerance, progress: block().skeleton)
     return put

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp.skeleton.balls import inscribed_balls, largest_gap
-from decomp.skeleton.equidistance import equidistant
+from decomp.tracing.balls import inscribed_balls, largest_gap
+from decomp.tracing.equidistance import equidistant
 from decomp.vectors import norm
 from tests.skeleton.sampling import boundary_points
 from tests.solids import SOLIDS

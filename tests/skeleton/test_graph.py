@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp.skeleton.contacts import contacts
-from decomp.skeleton.graph import SeamGraph, seam_graph
-from decomp.skeleton.local import seam_rays
+from decomp.tracing.contacts import contacts
+from decomp.tracing.graph import SeamGraph, seam_graph
+from decomp.tracing.local import seam_rays
 from decomp.vectors import norm
 from tests.solids import SOLIDS
 

@@ -1,0 +1,1 @@
+"""How good a skeleton is: every figure measured."""

@@ -1,0 +1,101 @@
+"""Is anything missing? From random boundary points, maximal balls must end on the skeleton."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from decomp.certificate.distance import TriangleTree, triangle_distance, triangle_tree
+from decomp.certificate.evidence import Evidence, Worst
+from decomp.sites.site import SiteKind
+from decomp.tracing.balls import inscribed_balls
+from decomp.vectors import Array, Bools, Ints, cross, norm
+
+LEAST = 20
+"""Balls on the smallest of faces."""
+
+STEP = 1e-7
+"""How far from the boundary it is asked which face is nearest, relative to the region's size."""
+
+
+def coverage(evidence: Evidence, balls: int, seed: int) -> Worst:
+    """The largest distance from the centre of a maximal ball to the skeleton.
+
+    Args:
+        balls: about how many, shared out by area, with some on every face.
+        seed: of the random numbers.
+
+    Raises:
+        GeometryError: a ball does not come to rest.
+    """
+    parts = list(boundary_samples(evidence, balls, np.random.default_rng(seed)))
+    points = np.concatenate([points for points, _ in parts])
+    inward = np.concatenate([inward for _, inward in parts])
+    found = inscribed_balls(evidence.index, evidence.boundary, evidence.region, points, inward)
+    away = triangle_distance(skeleton_tree(evidence), found.centre)
+    k = int(np.argmax(away))
+    site = int(found.site[k])
+    own = int(evidence.index.nearest(points[k : k + 1] + _step(evidence) * inward[k]).site[0])
+    sites = (own,) if site < 0 else (own, site)
+    return Worst(float(away[k]) / evidence.diagonal, found.centre[k], sites)
+
+
+def skeleton_tree(evidence: Evidence) -> TriangleTree:
+    """A search tree over sheets, reflexive curves and reflexive points."""
+    corners = [
+        evidence.sheet_triangles(),
+        evidence.reflexive_segments()[:, [0, 1, 1]],
+        np.repeat(evidence.reflexive_points()[:, None], 3, axis=1),
+    ]
+    return triangle_tree(evidence.complex.points[np.concatenate(corners)])
+
+
+def boundary_samples(
+    evidence: Evidence, count: int, rng: np.random.Generator
+) -> Iterator[tuple[Array, Array]]:
+    """Random points (k, 3) of each face, exactly on it, with inward unit normals (k, 3).
+
+    They are drawn from the face's triangles and brought onto its carrier; the few that come to lie
+    beyond the face's edge are left out.
+    """
+    boundary = evidence.boundary
+    whole = sum(face.area for face in boundary.faces)
+    for number, (face, sides) in enumerate(zip(boundary.faces, evidence.face_sides, strict=True)):
+        carrier = boundary.carriers[face.carrier]
+        triangles = np.concatenate(
+            [evidence.complex.patches[patch].triangles for patch, _ in sides]
+        )
+        share = max(LEAST, round(count * face.area / whole))
+        drawn = random_points(evidence.complex.points, triangles, share, rng)
+        points = carrier.project(np.concatenate([face.point[None], drawn]))
+        inward = -face.outward * carrier.normal(points)
+        inside = _in_face(evidence, number, points, inward)
+        yield points[inside], inward[inside]
+
+
+def random_points(points: Array, triangles: Ints, count: int, rng: np.random.Generator) -> Array:
+    """Points (count, 3) spread evenly over triangles (m, 3)."""
+    corners = points[triangles]
+    area = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    chosen = rng.choice(len(triangles), size=count, p=area / area.sum())
+    u, v = rng.random((2, count, 1))
+    over = u + v > 1
+    u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
+    a, b, c = np.moveaxis(corners[chosen], 1, 0)
+    return np.asarray(a + u * (b - a) + v * (c - a))
+
+
+def _step(evidence: Evidence) -> float:
+    return STEP * evidence.boundary.diagonal
+
+
+def _in_face(evidence: Evidence, number: int, points: Array, inward: Array) -> Bools:
+    """Whether points of a face's carrier lie in the face: from a little inside it is nearest."""
+    step = _step(evidence)
+    found = evidence.index.nearest(points + step * inward)
+    own = [
+        s.kind is SiteKind.FACE and s.region == evidence.region and s.index == number
+        for s in evidence.sites
+    ]
+    return np.array(own)[found.site] & (np.abs(found.distance - step) <= 1e-3 * step)

@@ -1,0 +1,267 @@
+"""Gathering all curves of a region's skeleton: seams, trims, rims and reflexive loci."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from decomp.complex.model import LineKind
+from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
+from decomp.medial.incidence import Incidence
+from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
+from decomp.medial.pieces import CurvePiece
+from decomp.medial.reflexive import ReflexivePart, inner_radius, reflexive_gap
+from decomp.medial.trims import TrimPiece, TrimScanner, solve_radius
+from decomp.sites import SiteIndex
+from decomp.sites.site import SiteKind
+from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.fields import site_fields
+from decomp.tracing.graph import Seam
+from decomp.vectors import Array, Ints, norm
+
+ALONG = 16
+"""Points by which a piece of trim or reflexive locus is first known."""
+BESIDE = 1e-5
+RUN = 256
+"""Samples by which it is seen where the centres over a normal curve turn back on a locus."""
+
+
+def seam_pieces(incidence: Incidence, seams: Sequence[Seam]) -> list[CurvePiece]:
+    """Traced seams, cut where a foot passes to another site."""
+    found = []
+    for seam in seams:
+        for sites, points in _runs(seam):
+            if len(points) < 3 and float(norm(points[-1] - points[0])) == 0.0:
+                continue
+            found.append(_seam_piece(incidence, sites, points))
+    return found
+
+
+def _runs(seam: Seam) -> list[tuple[tuple[int, ...], Array]]:
+    """Maximal parts with constant sites: (sites, points)."""
+    points, sites = seam.points, list(seam.sites)
+    if seam.ends is None:
+        changes = [k for k in range(len(points)) if sites[k] != sites[k - 1]]
+        first = changes[0] if changes else 0
+        points = np.roll(points, -first, axis=0)
+        points = np.concatenate([points, points[:1]])
+        sites = [*sites[first:], *sites[:first]]
+        sites.append(sites[-1] if changes else sites[0])
+    starts = [0, *(k for k in range(1, len(sites)) if sites[k] != sites[k - 1])]
+    ends = [*(k - 1 for k in starts[1:]), len(sites) - 1]
+    return [(sites[a], points[a : b + 1]) for a, b in zip(starts, ends, strict=True)]
+
+
+def _seam_piece(incidence: Incidence, sites: tuple[int, ...], points: Array) -> CurvePiece:
+    feet = _feet(incidence, sites, points)
+    curve = SeamCurve(incidence, sites, points, feet)
+    while len(points) < 4:
+        points = _denser(curve, points)
+    k = len(points) // 2
+    middle = points[k]
+    at = _feet(incidence, sites, middle[None])[0]
+    contacts = []
+    for site, foot in zip(sites, at, strict=True):
+        contacts.append(incidence.touched(site, foot, (middle - foot) / float(norm(middle - foot))))
+    return CurvePiece(LineKind.SEAM, tuple(contacts), curve, points, at)
+
+
+def _denser(curve: SeamCurve, points: Array) -> Array:
+    middle = curve.place((points[:-1] + points[1:]) / 2)
+    result = np.empty((2 * len(points) - 1, 3))
+    result[::2], result[1::2] = points, middle
+    return result
+
+
+def _feet(incidence: Incidence, sites: tuple[int, ...], points: Array) -> Array:
+    """Feet (k, m, 3) of points on each site."""
+    feet = np.empty((len(points), len(sites), 3))
+    for column, site in enumerate(sites):
+        which: Ints = np.full(len(points), site, dtype=np.int64)
+        guess = points
+        it = incidence.sites[site]
+        if it.kind is SiteKind.EDGE:
+            samples = incidence.boundary.edges[it.index].samples
+            gap = ((points[:, None] - samples[None]) ** 2).sum(axis=2)
+            guess = samples[np.argmin(gap, axis=1)]
+        field = site_fields(incidence.boundary, incidence.sites, which, points, guess)
+        feet[:, column] = field.foot
+    return feet
+
+
+@dataclass(frozen=True, eq=False)
+class LocusRun:
+    """A part of a normal curve whose balls' centres move one way along a reflexive locus.
+
+    Args:
+        over: number of the normal curve.
+        s: parameters (k,) of it, ascending.
+        points: the centres (k, 3); all the same if they do not move.
+    """
+
+    over: int
+    s: Array
+    points: Array
+
+    @property
+    def resting(self) -> bool:
+        """Whether all centres are one point."""
+        return bool((self.points == self.points[0]).all())
+
+
+def trim_pieces(
+    index: SiteIndex, incidence: Incidence, curves: Sequence[NormalCurve]
+) -> tuple[list[CurvePiece], list[LocusRun]]:
+    """The trims over normal curves: pieces of their own, and runs along reflexive loci."""
+    found: list[CurvePiece] = []
+    runs: list[LocusRun] = []
+    scanner = TrimScanner(index, incidence)
+    for number, curve in enumerate(curves):
+        for trim in scanner.pieces([curve]):
+            piece = _trim_piece(index, incidence, trim)
+            if isinstance(piece, CurvePiece):
+                found.append(replace(piece, over=frozenset({number})))
+            else:
+                runs.extend(_locus_runs(incidence, number, trim, piece))
+    return found, runs
+
+
+def _locus_runs(
+    incidence: Incidence, number: int, trim: TrimPiece, radius: Callable[[Array], Array]
+) -> list[LocusRun]:
+    """Cut a trim along a reflexive locus where its centres turn back."""
+    curve, size = trim.over, incidence.boundary.diagonal
+    s = np.linspace(trim.start, trim.end, RUN + 1)
+    points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
+    if float(norm(points - points[0]).max()) <= 1e-8 * size:
+        return [LocusRun(number, s, np.repeat(points[:1], len(s), axis=0))]
+    way = np.diff(points, axis=0)
+    turns = np.flatnonzero((way[1:] * way[:-1]).sum(axis=1) < 0) + 1
+    bounds = [0, *turns.tolist(), RUN]
+    return [
+        LocusRun(number, s[a : b + 1], points[a : b + 1])
+        for a, b in zip(bounds, bounds[1:], strict=False)
+    ]
+
+
+def _trim_piece(
+    index: SiteIndex, incidence: Incidence, trim: TrimPiece
+) -> CurvePiece | Callable[[Array], Array]:
+    """The piece over a part of a normal curve; on a reflexive locus only the balls' radii."""
+    over, size = trim.over, incidence.boundary.diagonal
+    span = trim.end - trim.start
+    inner = np.linspace(0, 1, ALONG + 1)[1:-1]
+    parts = np.concatenate([[BESIDE, 2 * BESIDE], inner, [1 - 2 * BESIDE, 1 - BESIDE]])
+    s = trim.start + span * parts
+    q, n = over.feet(s), over.directions(s)
+    balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
+    carrier = _on_locus(incidence, over.sites, balls.centre[len(s) // 2], size)
+    if carrier is not None:
+        return partial(_locus_radius, incidence, over, carrier)
+    far = trim.far[0]
+    which: Ints = np.full(len(s), far, dtype=np.int64)
+    feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
+    points = balls.centre
+    curve = TrimCurve(incidence, over, far, points, feet)
+    points = curve.at(s, balls.radius)
+    ends = []
+    for near, next_, at in ((0, 1, trim.start), (-1, -2, trim.end)):
+        r, r2 = float(balls.radius[near]), float(balls.radius[next_])
+        if r <= 1e-3 * size and abs(r2 - 2 * r) <= 0.2 * r:
+            ends.append(over.feet(np.array([at]))[0])
+        else:
+            ends.append(curve.at(np.array([at]), np.array([r]))[0])
+    points = np.concatenate([ends[0][None], points[2:-2], ends[1][None]])
+    whole = over.closed and abs(span - (over.end - over.start)) <= 1e-12 * abs(span)
+    if whole:
+        points[-1] = points[0]
+    middle = len(points) // 2
+    near_foot = over.feet(s[middle + 1 : middle + 2])[0]
+    at = np.array([near_foot, feet[middle + 1]])
+    contacts = (tuple(sorted(over.sites)), trim.far)
+    return CurvePiece(LineKind.TRIM, contacts, curve, points, at)
+
+
+def _on_locus(
+    incidence: Incidence, sites: tuple[int, int], point: Array, size: float
+) -> int | None:
+    """The face that is touched whose carrier has a centre of curvature in a ball's centre."""
+    for site in sites:
+        it = incidence.sites[site]
+        if it.kind is SiteKind.FACE:
+            face = incidence.boundary.faces[it.index]
+            carrier = incidence.boundary.carriers[face.carrier]
+            gap = reflexive_gap(carrier, face.outward, point[None])
+            if float(gap[0]) <= 1e-8 * size:
+                return it.index
+    return None
+
+
+def _locus_radius(incidence: Incidence, curve: NormalCurve, face: int, s: Array) -> Array:
+    """Radii (k,) of the balls that touch a face at the feet and have their centres on its locus."""
+    it = incidence.boundary.faces[face]
+    return inner_radius(incidence.boundary.carriers[it.carrier], it.outward, curve.feet(s))
+
+
+def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
+    """Rims over vertices at which two reentrant edges of a face meet at a reflex angle."""
+    found = []
+    boundary = incidence.boundary
+    for vertex, face, direction in reflex_rays(incidence):
+        point = boundary.vertices[vertex].point
+        balls = inscribed_balls(index, boundary, incidence.region, point[None], direction[None])
+        radius = float(balls.radius[0])
+        if radius <= 1e-9 * boundary.diagonal:
+            continue
+        which: Ints = np.array([balls.site[0]])
+        ray = np.linspace(0, radius, 5)
+        edges = [
+            incidence.edge_site[e]
+            for e in boundary.vertices[vertex].edges
+            if face in boundary.edges[e].faces and e in incidence.edge_site
+        ]
+        foot = site_fields(boundary, incidence.sites, which, balls.centre, balls.foot).foot[0]
+        exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)
+        points = point + (exact / radius) * ray[:, None] * direction
+        a, b = sorted(edges)
+        found.append(
+            CurvePiece(
+                LineKind.RIM,
+                ((incidence.vertex_site[vertex], a, b),),
+                RayCurve(point, direction),
+                points,
+                point[None],
+                pairs=((a, b),),
+            )
+        )
+    return found
+
+
+def _ray_end(
+    incidence: Incidence, point: Array, direction: Array, far: int, foot: Array, guess: float
+) -> float:
+    ray = VertexRay(0.0, guess, False, (far, far), point, direction)
+    at = np.array([0.0])
+    return float(solve_radius(incidence, ray, far, at, foot[None], np.array([guess]))[0])
+
+
+def reflexive_pieces(parts: Sequence[ReflexivePart]) -> list[CurvePiece]:
+    """Reflexive curves as pieces; points are none."""
+    found = []
+    for part in parts:
+        if part.locus is None or part.dimension == 0:
+            continue
+        u = np.linspace(part.start, part.end, ALONG + 1)
+        points = part.locus.point(u)
+        if part.closed:
+            points[-1] = points[0]
+        else:
+            points[0], points[-1] = part.ends
+        touched = part.locus.point(u[ALONG // 2 : ALONG // 2 + 1])
+        found.append(
+            CurvePiece(LineKind.REFLEXIVE, (part.sites,), LocusCurve(part.locus), points, touched)
+        )
+    return found

@@ -1,0 +1,157 @@
+"""Which sites share a contact: the sites at a boundary point whose normals hold a direction.
+
+A maximal ball about p touches the boundary at a foot q; seen from q its centre lies in the unit
+direction d. A face is touched at q if d is its inward normal there, a reentrant edge if d is at
+right angles to it and between the normals of its two faces, a reentrant vertex if q is the vertex.
+On an edge or at a vertex several sites can hold the same direction: there one takes over from
+another without a jump of the foot (a trim).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from decomp.boundary.topology import Convexity, Edge, RegionBoundary
+from decomp.sites.site import Site, SiteKind
+from decomp.tracing.fields import edge_foot
+from decomp.vectors import Array, cross, dot, norm
+
+NEAR = 1e-8
+"""Feet nearer to an edge or vertex than this part of the region's diagonal are on it."""
+ANGLE = 1e-6
+"""Directions that differ by less than this count as equal."""
+
+
+class Incidence:
+    """Edges, vertices and faces of one region by the sites that they are.
+
+    Args:
+        boundary: of the region.
+        sites: all sites of the model.
+        region: its index.
+    """
+
+    def __init__(self, boundary: RegionBoundary, sites: Sequence[Site], region: int) -> None:
+        self.boundary, self.sites, self.region = boundary, sites, region
+        self._size = boundary.diagonal
+        self.face_site: dict[int, int] = {}
+        self.edge_site: dict[int, int] = {}
+        self.vertex_site: dict[int, int] = {}
+        tables = {
+            SiteKind.FACE: self.face_site,
+            SiteKind.EDGE: self.edge_site,
+            SiteKind.VERTEX: self.vertex_site,
+        }
+        for number, site in enumerate(sites):
+            if site.region == region:
+                tables[site.kind][site.index] = number
+
+    @cached_property
+    def edges_of_face(self) -> dict[int, list[int]]:
+        """The edges of each face."""
+        found: dict[int, list[int]] = {k: [] for k in range(len(self.boundary.faces))}
+        for number, edge in enumerate(self.boundary.edges):
+            for face in set(edge.faces):
+                found[face].append(number)
+        return found
+
+    def inward(self, face: int, points: Array) -> Array:
+        """Inward unit normals (k, 3) of a face at points (k, 3) on it."""
+        it = self.boundary.faces[face]
+        normal = self.boundary.carriers[it.carrier].normal(points)
+        return np.asarray(-it.outward * normal)
+
+    def tangent(self, edge: int, point: Array) -> Array:
+        """Unit tangent (3,) of an edge at a point on it, in the sense of its parameter."""
+        curve = self.boundary.edges[edge].curve
+        along = curve.derivative(curve.parameter(point))
+        return np.asarray(along / norm(along))
+
+    def touched(self, site: int, foot: Array, direction: Array) -> tuple[int, ...]:
+        """All sites (in order) that are touched at a foot of `site` from a direction, both (3,)."""
+        found = {site}
+        vertices, edges = self._around(site, foot)
+        for number in vertices:
+            if number in self.vertex_site:
+                found.add(self.vertex_site[number])
+        faces = {f for e in edges for f in self.boundary.edges[e].faces}
+        faces |= {f for v in vertices for f in self.boundary.vertices[v].faces}
+        for face in faces:
+            if float(norm(self.inward(face, foot[None])[0] - direction)) <= ANGLE:
+                found.add(self.face_site[face])
+        for number in edges:
+            if number in self.edge_site and self.in_wedge(number, foot, direction):
+                found.add(self.edge_site[number])
+        return tuple(sorted(found))
+
+    def in_wedge(self, edge: int, foot: Array, direction: Array) -> bool:
+        """Whether a direction lies between the normals of a reentrant edge's faces."""
+        tangent = self.tangent(edge, foot)
+        if abs(float(tangent @ direction)) > ANGLE:
+            return False
+        a, b = (self.inward(f, foot[None])[0] for f in self.boundary.edges[edge].faces)
+        turn = float(cross(a, b) @ tangent)
+        sign = 1.0 if turn > 0 else -1.0
+        return (
+            sign * float(cross(a, direction) @ tangent) >= -ANGLE
+            and sign * float(cross(direction, b) @ tangent) >= -ANGLE
+            and float(direction @ (a + b)) > 0
+        )
+
+    def _around(self, site: int, foot: Array) -> tuple[list[int], list[int]]:
+        """The vertices at a foot, and the reentrant or smooth edges through it."""
+        it = self.sites[site]
+        match it.kind:
+            case SiteKind.FACE:
+                near = self.edges_of_face[it.index]
+            case SiteKind.EDGE:
+                near = [it.index]
+            case SiteKind.VERTEX:
+                near = list(self.boundary.vertices[it.index].edges)
+        bends = [e for e in near if self.boundary.edges[e].convexity is not Convexity.CONVEX]
+        edges = {e for e in bends if self._on(self.boundary.edges[e], foot)}
+        corners = {v for e in near for v in self.boundary.edges[e].vertices or ()}
+        if it.kind is SiteKind.VERTEX:
+            corners.add(it.index)
+        vertices = [v for v in sorted(corners) if self._at(v, foot)]
+        for vertex in vertices:
+            edges |= {
+                e
+                for e in self.boundary.vertices[vertex].edges
+                if self.boundary.edges[e].convexity is not Convexity.CONVEX
+            }
+        return vertices, sorted(edges)
+
+    def _at(self, vertex: int, point: Array) -> bool:
+        gap = float(norm(self.boundary.vertices[vertex].point - point))
+        return gap <= NEAR * self._size
+
+    def _on(self, edge: Edge, point: Array) -> bool:
+        """Whether a point on one of an edge's faces is on the edge."""
+        slack = NEAR * self._size
+        carriers = [self.boundary.carriers[k] for k in edge.carriers]
+        if max(abs(float(c.signed_distance(point))) for c in carriers) > slack:
+            # on a smooth edge the carriers stay close beside it, so only a far one tells
+            return False
+        near = edge.samples[int(np.argmin(norm(edge.samples - point)))]
+        foot = edge_foot(self.boundary, edge, point[None], near[None])[0]
+        if float(norm(foot - point)) > slack:
+            return False
+        if edge.closed:
+            return True
+        start, end = edge.samples[0], edge.samples[-1]
+        if min(float(norm(start - point)), float(norm(end - point))) <= slack:
+            return True
+        t = float(edge.curve.parameter(foot))
+        if edge.curve.closed:
+            period = edge.curve.period
+            return (t - edge.start) % period <= edge.end - edge.start
+        return edge.start <= t <= edge.end
+
+
+def angle_between(a: Array, b: Array, axis: Array) -> Array:
+    """Angle (...) from a to b about unit `axis`, in (-pi, pi]."""
+    return np.arctan2(dot(cross(a, b), axis), dot(a, b))

@@ -1,0 +1,224 @@
+"""Curves of boundary normals: where maximal balls pass from one site to a neighbour without a jump.
+
+Along an edge the balls that touch one of its faces end; beyond a reentrant edge they touch the
+edge itself, beyond a smooth edge the other face. Seen from the boundary these are the normals of
+the face along the edge. At a vertex that is a site they are the normals across each reentrant edge.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from decomp.boundary.topology import Convexity, Edge
+from decomp.curves.circle import Circle
+from decomp.curves.line import Line
+from decomp.medial.incidence import Incidence, angle_between
+from decomp.vectors import Array, cross, dot, nearest_rows
+
+
+@dataclass(frozen=True, eq=False)
+class NormalCurve(ABC):
+    """Feet and directions over a parameter.
+
+    Args:
+        start, end: first and last parameter.
+        closed: whether the end is the start again.
+        sites: the two sites that touch along it, the one of lower dimension first.
+    """
+
+    start: float
+    end: float
+    closed: bool
+    sites: tuple[int, int]
+
+    @abstractmethod
+    def feet(self, s: Array) -> Array:
+        """Boundary points (k, 3) at parameters (k,)."""
+
+    @abstractmethod
+    def directions(self, s: Array) -> Array:
+        """Unit directions (k, 3) into the region."""
+
+    @abstractmethod
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
+        """Parameters (k,) of points (k, 3) close to the ruled surface of the normals.
+
+        Where several normals pass through a point, the one whose parameter is close to `near`.
+        """
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeNormals(NormalCurve):
+    """The normals of one face along a reentrant or smooth edge."""
+
+    edge: Edge
+    face: int
+    incidence: Incidence
+
+    def feet(self, s: Array) -> Array:
+        return self.edge.curve.point(s)
+
+    def directions(self, s: Array) -> Array:
+        return self.incidence.inward(self.face, self.feet(s))
+
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
+        curve = self.edge.curve
+        if isinstance(curve, (Line, Circle)):
+            t = curve.parameter(points)
+        else:
+            t = self._descend(points, self._nearest(points) if near is None else near)
+        if curve.closed:
+            middle = np.asarray((self.start + self.end) / 2 if near is None else near)
+            t = t + curve.period * np.round((middle - t) / curve.period)
+        return np.asarray(t)
+
+    def _nearest(self, points: Array) -> Array:
+        """Parameters of the samples of the edge that are nearest to points."""
+        samples, s = self._samples
+        return np.asarray(s[nearest_rows(samples, points)])
+
+    @cached_property
+    def _samples(self) -> tuple[Array, Array]:
+        s = np.linspace(self.start, self.end, 257)
+        return self.feet(s), s
+
+    def _descend(self, points: Array, guess: Array) -> Array:
+        """Newton's method on (p - x).x' = 0, with differences for x''."""
+        t = np.array(guess, dtype=np.float64)
+        h = 1e-5 * (self.end - self.start)
+        limit = 0.05 * (self.end - self.start)
+        rows = np.arange(len(t))
+        for _ in range(30):
+            x, d = self.edge.curve.point(t[rows]), self.edge.curve.derivative(t[rows])
+            ahead = self.edge.curve.derivative(t[rows] + h)
+            away = points[rows] - x
+            slope = dot(away, (ahead - d) / h) - dot(d, d)
+            move = np.where(slope < 0, -dot(away, d) / np.where(slope < 0, slope, 1.0), 0.0)
+            t[rows] += np.clip(move, -limit, limit)
+            rows = rows[np.abs(move) > 1e-15 * (1 + np.abs(t[rows]))]
+            if not len(rows):
+                break
+        return t
+
+
+@dataclass(frozen=True, eq=False)
+class VertexNormals(NormalCurve):
+    """The normals across a reentrant edge at its end in a vertex; the parameter is an angle."""
+
+    vertex: Array
+    first: Array
+    second: Array
+
+    def feet(self, s: Array) -> Array:
+        return np.broadcast_to(self.vertex, (*np.shape(s), 3)).copy()
+
+    def directions(self, s: Array) -> Array:
+        s = np.asarray(s)[..., None]
+        return np.asarray(np.cos(s) * self.first + np.sin(s) * self.second)
+
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
+        away = points - self.vertex
+        return np.arctan2(away @ self.second, away @ self.first)
+
+
+@dataclass(frozen=True, eq=False)
+class VertexRay(NormalCurve):
+    """A face's one normal at a vertex where two of its edges meet at a reflex angle.
+
+    The parameter is the distance from the vertex: the whole ray is a curve of the skeleton, up to
+    the centre of the maximal ball.
+    """
+
+    vertex: Array
+    direction: Array
+
+    def feet(self, s: Array) -> Array:
+        return np.broadcast_to(self.vertex, (*np.shape(s), 3)).copy()
+
+    def directions(self, s: Array) -> Array:
+        return np.broadcast_to(self.direction, (*np.shape(s), 3)).copy()
+
+    def parameter(self, points: Array, near: Array | None = None) -> Array:
+        return np.asarray((points - self.vertex) @ self.direction)
+
+
+def normal_curves(incidence: Incidence) -> list[NormalCurve]:
+    """All normal curves of a region but the rays."""
+    boundary = incidence.boundary
+    found: list[NormalCurve] = []
+    for number, edge in enumerate(boundary.edges):
+        if edge.convexity is Convexity.CONVEX:
+            continue
+        one, two = (incidence.face_site[f] for f in edge.faces)
+        if edge.convexity is Convexity.SMOOTH:
+            flanks = [((one, two), edge.faces[0])]
+        else:
+            own = incidence.edge_site[number]
+            flanks = [((own, one), edge.faces[0]), ((own, two), edge.faces[1])]
+        for sites, face in flanks:
+            found.append(
+                EdgeNormals(edge.start, edge.end, edge.closed, sites, edge, face, incidence)
+            )
+    for number, site in incidence.vertex_site.items():
+        if boundary.vertices[number].convexity is Convexity.REENTRANT:
+            found.extend(_fans(incidence, number, site))
+    return found
+
+
+def _fans(incidence: Incidence, number: int, site: int) -> list[NormalCurve]:
+    vertex = incidence.boundary.vertices[number]
+    found: list[NormalCurve] = []
+    for k in vertex.edges:
+        edge = incidence.boundary.edges[k]
+        if edge.convexity is not Convexity.REENTRANT:
+            continue
+        a, b = (incidence.inward(f, vertex.point[None])[0] for f in edge.faces)
+        axis = incidence.tangent(k, vertex.point)
+        angle = float(angle_between(a, b, axis))
+        if angle < 0:
+            axis, angle = -axis, -angle
+        fan = VertexNormals(
+            0.0, angle, False, (site, incidence.edge_site[k]), vertex.point, a, cross(axis, a)
+        )
+        found.append(fan)
+    return found
+
+
+def reflex_rays(incidence: Incidence) -> list[tuple[int, int, Array]]:
+    """(vertex, face, direction) where reentrant edges of a face meet at a reflex angle in it."""
+    boundary = incidence.boundary
+    found = []
+    for number, vertex in enumerate(boundary.vertices):
+        if number not in incidence.vertex_site:
+            continue
+        for face in vertex.faces:
+            edges = [
+                e
+                for e in vertex.edges
+                if face in boundary.edges[e].faces
+                and boundary.edges[e].convexity is Convexity.REENTRANT
+            ]
+            if len(edges) == 2 and _reflex(incidence, number, face, edges):
+                found.append((number, face, incidence.inward(face, vertex.point[None])[0]))
+    return found
+
+
+def _reflex(incidence: Incidence, vertex: int, face: int, edges: list[int]) -> bool:
+    """Whether the face fills more than a half-plane between two of its edges at a vertex."""
+    boundary = incidence.boundary
+    point = boundary.vertices[vertex].point
+    normal = -incidence.inward(face, point[None])[0]
+    for loop in boundary.faces[face].loops:
+        for (e, sense), (after, after_sense) in zip(loop, (*loop[1:], loop[0]), strict=True):
+            ends = boundary.edges[e].vertices
+            if {e, after} != set(edges) or ends is None or ends[sense > 0] != vertex:
+                continue
+            arriving = sense * incidence.tangent(e, point)
+            leaving = after_sense * incidence.tangent(after, point)
+            # the face is on the left: a turn to the right leaves more than a half-plane
+            return float(cross(arriving, leaving) @ normal) < 0
+    return False

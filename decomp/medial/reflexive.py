@@ -1,0 +1,414 @@
+"""Where a carrier is nearest to itself: the parts of reflexive loci that belong to the skeleton.
+
+A point of a cylinder's or cone's axis, of a torus's spine or axis, or a sphere's centre, is as far
+from all points of a circle (or sphere) of its carrier. It is in the skeleton where no boundary
+point is nearer and the carrier's own face is touched in more than one point.
+
+The depth F(u) = d(carrier) - d(boundary) at the locus point u is zero there. It changes at most twice
+as fast as u, which tells how far from a point with |F| > 0 there can be no zero; F < 0 means that
+the carrier's nearest points are not on the boundary.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
+from decomp.curves.circle import Circle
+from decomp.errors import GeometryError
+from decomp.medial.incidence import Incidence
+from decomp.sites import SiteIndex
+from decomp.tracing.fields import site_fields
+from decomp.vectors import Array, Bools, cross, frame, norm
+
+ZERO = 1e-10
+"""Depths below this part of the region's size are zero."""
+FINEST = 1e-5
+"""Parts of a locus shorter than this part of the region's size can be missed."""
+AROUND = 72
+"""Directions in which contacts around a point of a locus are looked for."""
+TOWARDS = 0.5
+BESIDE = 1e-4
+"""How far from the end of a part its equation is first looked at, in units of the size."""
+
+
+@dataclass(frozen=True, eq=False)
+class Locus:
+    """The reflexive locus of a carrier as a curve.
+
+    Args:
+        point: points (k, 3) at parameters (k,), arc length.
+        span: first and last parameter to look at.
+        closed: whether these are the same point.
+        radius: distance (k,) to the carrier.
+        parameter: of points (k, 3) near the locus.
+        touched: directions (count, 3) from the point at one parameter to the points of the
+            carrier that are nearest to it, evenly around their circle.
+    """
+
+    point: Callable[[Array], Array]
+    span: tuple[float, float]
+    closed: bool
+    radius: Callable[[Array], Array]
+    parameter: Callable[[Array], Array]
+    touched: Callable[[float, int], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class ReflexivePart:
+    """A maximal connected part of a locus in the skeleton.
+
+    Args:
+        sites: the faces on the carrier that are touched.
+        locus: of the carrier, None for a sphere's centre.
+        start, end: parameters; equal for a point.
+        ends: the points (2, 3).
+        others: at both ends a site that is as near, -1 where there is none.
+    """
+
+    sites: tuple[int, ...]
+    locus: Locus | None
+    start: float
+    end: float
+    ends: Array
+    others: tuple[int, int]
+
+    @property
+    def dimension(self) -> int:
+        """0 for a point, 1 for a curve."""
+        return int(self.end > self.start)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it is the whole of a closed locus."""
+        return self.locus is not None and self.locus.closed and self.others == (-1, -1)
+
+
+def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePart]:
+    """All reflexive curves and points of a region."""
+    boundary = incidence.boundary
+    groups: dict[tuple[int, int], list[int]] = {}
+    for number, face in enumerate(boundary.faces):
+        groups.setdefault((face.carrier, face.outward), []).append(number)
+    found = []
+    for (carrier_number, outward), faces in groups.items():
+        carrier = boundary.carriers[carrier_number]
+        sites = tuple(incidence.face_site[f] for f in faces)
+        if isinstance(carrier, Sphere) and outward > 0:
+            found.extend(_centre(index, incidence, carrier, sites))
+        locus = _locus(carrier, outward, boundary.bounds)
+        if locus is not None:
+            found.extend(_Search(index, incidence, sites, locus).parts())
+    for number, site in incidence.edge_site.items():
+        curve = boundary.edges[number].curve
+        if isinstance(curve, Circle):
+            locus = _circle_axis(curve, boundary.bounds)
+            found.extend(_Search(index, incidence, (site,), locus).parts())
+    return found
+
+
+def reflexive_gap(carrier: Carrier, outward: int, points: Array) -> Array:
+    """Distance (k,) of points (k, 3) from the reflexive locus on a face's inner side.
+
+    Infinite where there is none.
+    """
+    away = np.full(len(points), np.inf)
+    if isinstance(carrier, Sphere) and outward > 0:
+        return norm(points - carrier.centre)
+    if isinstance(carrier, Cylinder) and outward > 0:
+        return _off_axis(points - carrier.point, carrier.axis)
+    if isinstance(carrier, Cone) and outward > 0:
+        return _off_axis(points - carrier.apex, carrier.axis)
+    if isinstance(carrier, Torus):
+        if outward < 0:
+            return _off_axis(points - carrier.centre, carrier.axis)
+        return np.asarray(carrier.signed_distance(points) + carrier.minor)
+    return away
+
+
+def inner_radius(carrier: Carrier, outward: int, points: Array) -> Array:
+    """Distance (k,) from points (k, 3) of a carrier along its normals to its reflexive locus."""
+    if isinstance(carrier, (Sphere, Cylinder)):
+        return np.full(len(points), carrier.radius)
+    if isinstance(carrier, Cone):
+        # the normal from the point at slant length l meets the axis at distance l tan(angle)
+        return np.asarray(norm(points - carrier.apex) * np.tan(carrier.angle))
+    if isinstance(carrier, Torus):
+        if outward > 0:
+            return np.full(len(points), carrier.minor)
+        off = _off_axis(points - carrier.centre, carrier.axis)
+        # from the tube's inner side: beyond the tube the normal goes on to the axis
+        return np.asarray(off * carrier.minor / (carrier.major - off))
+    raise GeometryError(f"a {carrier.kind} has no reflexive locus")
+
+
+def _off_axis(v: Array, axis: Array) -> Array:
+    return norm(v - (v @ axis)[:, None] * axis)
+
+
+def _locus(carrier: Carrier, outward: int, bounds: Array) -> Locus | None:
+    if isinstance(carrier, Cylinder) and outward > 0:
+        radius = carrier.radius
+        return _line(
+            carrier.point, carrier.axis, bounds, lambda u: np.full(np.shape(u), radius), carrier
+        )
+    if isinstance(carrier, Cone) and outward > 0:
+        apex, axis, sine = carrier.apex, carrier.axis, np.sin(carrier.angle)
+        line = _line(apex, axis, bounds, lambda u: np.asarray(np.maximum(u, 0.0) * sine), carrier)
+        low, high = line.span
+        span = (max(low, 0.0), max(high, 0.0))
+        return replace(line, span=span)
+    if isinstance(carrier, Torus):
+        major, minor, centre = carrier.major, carrier.minor, carrier.centre
+        if outward < 0:
+            return _line(
+                centre,
+                carrier.axis,
+                bounds,
+                lambda u: np.asarray(np.hypot(major, u) - minor),
+                carrier,
+            )
+        x, y = frame(carrier.axis)
+
+        def spine(u: Array) -> Array:
+            angle = np.asarray(u)[..., None] / major
+            return np.asarray(centre + major * (np.cos(angle) * x + np.sin(angle) * y))
+
+        def along(p: Array) -> Array:
+            v = p - centre
+            return np.asarray(major * np.mod(np.arctan2(v @ y, v @ x), 2 * np.pi))
+
+        return Locus(
+            spine,
+            (0.0, 2 * np.pi * major),
+            True,
+            lambda u: np.full(np.shape(u), minor),
+            along,
+            _touched_circle(spine, carrier.foot, minor),
+        )
+    return None
+
+
+def _line(
+    point: Array,
+    axis: Array,
+    bounds: Array,
+    radius: Callable[[Array], Array],
+    carrier: Carrier,
+) -> Locus:
+    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, -1).T
+    heights = (corners - point) @ axis
+
+    def at(u: Array) -> Array:
+        return np.asarray(point + np.asarray(u)[..., None] * axis)
+
+    size = float(norm(bounds[1] - bounds[0]))
+    return Locus(
+        at,
+        (float(heights.min()), float(heights.max())),
+        False,
+        radius,
+        lambda p: np.asarray((p - point) @ axis),
+        _touched_circle(at, carrier.foot, size),
+    )
+
+
+def _touched_circle(
+    point: Callable[[Array], Array], foot: Callable[[Array], Array], size: float
+) -> Callable[[float, int], Array]:
+    """Directions to the feet of points on a small circle around the locus."""
+
+    def touched(u: float, count: int) -> Array:
+        h = 1e-6 * size
+        behind, here, ahead = point(np.array([u - h, u, u + h]))
+        x, y = frame((ahead - behind) / float(norm(ahead - behind)))
+        angle = np.linspace(0, 2 * np.pi, count, endpoint=False)[:, None]
+        ways = foot(here + 1e-7 * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
+        return np.asarray(ways / norm(ways)[:, None])
+
+    return touched
+
+
+def _circle_axis(circle: Circle, bounds: Array) -> Locus:
+    """The axis of a circle that is an edge: its points are equally far from the whole circle."""
+    axis = cross(circle.x, circle.y)
+    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, -1).T
+    heights = (corners - circle.centre) @ axis
+
+    def touched(u: float, count: int) -> Array:
+        angle = np.linspace(0, circle.period, count, endpoint=False)
+        ways = circle.point(circle.domain[0] + angle) - circle.centre - u * axis
+        return np.asarray(ways / norm(ways)[:, None])
+
+    return Locus(
+        lambda u: np.asarray(circle.centre + np.asarray(u)[..., None] * axis),
+        (float(heights.min()), float(heights.max())),
+        False,
+        lambda u: np.hypot(circle.radius, u),
+        lambda p: np.asarray((p - circle.centre) @ axis),
+        touched,
+    )
+
+
+def _centre(
+    index: SiteIndex, incidence: Incidence, sphere: Sphere, sites: tuple[int, ...]
+) -> list[ReflexivePart]:
+    centre = sphere.centre[None]
+    found = index.nearest(centre)
+    size = incidence.boundary.diagonal
+    depth = sphere.radius - float(found.distance[0])
+    if found.region[0] != incidence.region or depth > ZERO * size:
+        return []
+    rng = np.random.default_rng(0)
+    ways = rng.normal(size=(AROUND, 3))
+    ways /= norm(ways)[:, None]
+    if not _touched(index, incidence, centre, ways, sphere.radius).sum() > 1:
+        return []
+    return [ReflexivePart(sites, None, 0.0, 0.0, np.repeat(centre, 2, axis=0), (-1, -1))]
+
+
+def _touched(
+    index: SiteIndex, incidence: Incidence, centre: Array, ways: Array, radius: float
+) -> Bools:
+    """Whether the boundary is touched at a distance in some directions (k, 3) from a point."""
+    half = index.nearest(centre + TOWARDS * radius * ways)
+    gap = np.abs(half.distance - (1 - TOWARDS) * radius)
+    close = gap <= 1e-9 * incidence.boundary.diagonal
+    return np.asarray((half.region == incidence.region) & close)
+
+
+class _Search:
+    """Looks for the zeros of the depth along one locus."""
+
+    def __init__(
+        self, index: SiteIndex, incidence: Incidence, sites: tuple[int, ...], locus: Locus
+    ) -> None:
+        self._index, self._incidence = index, incidence
+        self._sites, self._locus = sites, locus
+        self._size = incidence.boundary.diagonal
+        self._zero = ZERO * self._size
+
+    def parts(self) -> list[ReflexivePart]:
+        low, high = self._locus.span
+        if not high > low:
+            return []
+        runs = self._runs(low, high)
+        if self._locus.closed and len(runs) > 1 and runs[0][0] == low and runs[-1][1] == high:
+            (_, end), (start, _) = runs[0], runs.pop()
+            runs[0] = (start - (high - low), end)
+        found = []
+        for a, b in runs:
+            part = self._part(a, b)
+            if part is not None:
+                found.append(part)
+        return found
+
+    def _depth(self, u: Array) -> Array:
+        points = self._locus.point(u)
+        near = self._index.nearest(points)
+        radius = self._locus.radius(u)
+        inside = (near.region == self._incidence.region) & (radius > self._zero)
+        depth = np.abs(radius - near.distance)
+        return np.where(inside, depth, radius + near.distance + self._zero)
+
+    def _runs(self, low: float, high: float) -> list[tuple[float, float]]:
+        """Intervals of zeros, to `FINEST`: neighbouring samples that are all zero."""
+        count = 256
+        u = np.linspace(low, high, count + 1)
+        width = (high - low) / count
+        zeros: list[Array] = []
+        while True:
+            depth = self._depth(u)
+            zero = depth <= self._zero
+            zeros.append(u[zero])
+            # a zero can lie closer to a sample than its depth allows
+            open_ = ~zero & (depth < 2 * width)
+            if width <= FINEST * self._size or not open_.any():
+                break
+            width /= 2
+            u = np.unique(np.concatenate([u[open_] - width, u[open_] + width]))
+            u = u[(u > low) & (u < high)]
+        at = np.unique(np.concatenate(zeros))
+        if not len(at):
+            return []
+        gaps = np.flatnonzero(np.diff(at) > 1.5 * (high - low) / count)
+        starts, ends = np.append(0, gaps + 1), np.append(gaps, len(at) - 1)
+        return [(float(at[i]), float(at[j])) for i, j in zip(starts, ends, strict=True)]
+
+    def _part(self, a: float, b: float) -> ReflexivePart | None:
+        locus = self._locus
+        low, high = locus.span
+        if locus.closed and b - a >= (high - low) * (1 - 1e-9):
+            start, end, others = low, high, (-1, -1)
+        else:
+            start, one = self._end(a, -1.0)
+            end, two = self._end(b, 1.0)
+            others = (one, two)
+            if end - start <= 1e-9 * self._size:
+                start = end = (start + end) / 2
+        middle = np.array([(start + end) / 2])
+        centre = locus.point(middle)
+        radius = float(locus.radius(middle)[0])
+        ways = locus.touched(float(middle[0]), AROUND)
+        if _touched(self._index, self._incidence, centre, ways, radius).sum() < 2:
+            return None
+        ends = locus.point(np.array([start, end]))
+        return ReflexivePart(self._sites, locus, start, end, ends, others)
+
+    def _end(self, u: float, sense: float) -> tuple[float, int]:
+        """Where the zeros end on one side of u, and the site that is nearer beyond."""
+        low, high = self._locus.span
+        inside, outside = u, u + sense * 1.5 * (high - low) / 256
+        for _ in range(80):
+            middle = (inside + outside) / 2
+            if float(self._depth(np.array([middle]))[0]) <= self._zero:
+                inside = middle
+            else:
+                outside = middle
+            if abs(outside - inside) <= 1e-15 * self._size:
+                break
+        beyond = inside + sense * 1e-6 * self._size
+        near = self._index.nearest(self._locus.point(np.array([beyond])))
+        if near.region[0] != self._incidence.region:
+            return inside, -1
+        other = int(near.site[0])
+        return self._polished(inside, other, near.foot), other
+
+    def _polished(self, u: float, other: int, foot: Array) -> float:
+        """Solve d_other(u) = d_carrier(u) from close by."""
+        which = np.array([other])
+        it = self._incidence
+
+        def gap(v: float) -> float:
+            at = np.array([v])
+            p = self._locus.point(at)
+            field = site_fields(it.boundary, it.sites, which, p, foot)
+            return float(field.distance[0] - self._locus.radius(at)[0])
+
+        def change(v: float) -> float:
+            """Derivative of the gap."""
+            h = 1e-6 * self._size
+            at = np.array([v - h, v, v + h])
+            behind, here, ahead = self._locus.point(at)
+            field = site_fields(it.boundary, it.sites, which, here[None], foot)
+            low, _, high = self._locus.radius(at)
+            return float((field.gradient[0] @ (ahead - behind) - (high - low)) / (2 * h))
+
+        a, b = u - BESIDE * self._size, u + BESIDE * self._size
+        if gap(a) * gap(b) > 0:
+            # the distances touch: their difference is least, but it does not change its sign
+            gap = change
+        fa, fb = gap(a), gap(b)
+        for _ in range(20):
+            if fa == fb:
+                return u
+            c = b - fb * (b - a) / (fb - fa)
+            if abs(c - u) > 2 * BESIDE * self._size:
+                return u
+            if abs(c - b) <= 1e-16 * (abs(c) + self._size):
+                return c
+            a, fa, b, fb = b, fb, c, gap(c)
+        return b

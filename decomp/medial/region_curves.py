@@ -1,0 +1,91 @@
+"""All that is known of a region's skeleton before its sheets: its curves, their nodes and loci."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.medial.curves_of_region import (
+    LocusRun,
+    ray_pieces,
+    reflexive_pieces,
+    seam_pieces,
+    trim_pieces,
+)
+from decomp.medial.incidence import Incidence
+from decomp.medial.normal_curves import NormalCurve, normal_curves
+from decomp.medial.pieces import CurvePiece, network
+from decomp.medial.reflexive import ReflexivePart, reflexive_parts
+from decomp.medial.rims import rim_pieces
+from decomp.medial.sectors import with_pairs
+from decomp.sites import SiteIndex
+from decomp.tracing.graph import seam_graph
+from decomp.vectors import Array
+
+
+@dataclass(frozen=True, eq=False)
+class RegionCurves:
+    """Curves of one region's skeleton.
+
+    Args:
+        incidence: of the region.
+        nodes: (n, 3): the region's vertices, then the reflexive points, then all others.
+        pieces: between them, with the pairs of sites whose sheets they border.
+        over: the normal curves, into which `CurvePiece.over` points.
+        reflexive: curves and points.
+        runs: parts of normal curves whose centres lie on reflexive loci.
+    """
+
+    incidence: Incidence
+    nodes: Array
+    pieces: tuple[CurvePiece, ...]
+    over: tuple[NormalCurve, ...]
+    reflexive: tuple[ReflexivePart, ...]
+    runs: tuple[LocusRun, ...]
+
+    @property
+    def vertices(self) -> int:
+        """How many of the nodes are vertices of the region."""
+        return len(self.incidence.boundary.vertices)
+
+    @property
+    def points(self) -> list[ReflexivePart]:
+        """The reflexive points, in the order of their nodes after the vertices."""
+        return [part for part in self.reflexive if part.dimension == 0]
+
+
+def region_curves(
+    index: SiteIndex, boundary: RegionBoundary, region: int, samples: int
+) -> RegionCurves:
+    """Find all curves of a region's skeleton.
+
+    Args:
+        index: queries of the model.
+        boundary: of the region.
+        region: its index.
+        samples: boundary points from which seams are looked for that no node leads to.
+
+    Raises:
+        GeometryError: a curve cannot be followed; says where.
+    """
+    incidence = Incidence(boundary, index.sites, region)
+    graph = seam_graph(index, boundary, region, samples=samples)
+    over = normal_curves(incidence)
+    parts = reflexive_parts(index, incidence)
+    trims, runs = trim_pieces(index, incidence, over)
+    found = [
+        *seam_pieces(incidence, graph.seams),
+        *trims,
+        *ray_pieces(index, incidence),
+        *rim_pieces(index, incidence),
+        *reflexive_pieces(parts),
+    ]
+    fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
+    turns = [run.points[k] for run in runs for k in (0, -1)]
+    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns)
+    pieces = with_pairs(index, incidence, joined.pieces)
+    return RegionCurves(
+        incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(runs)
+    )

@@ -1,0 +1,97 @@
+"""The Voronoi surface of two sites as an element that vertices are placed on exactly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.errors import GeometryError
+from decomp.medial.incidence import Incidence
+from decomp.tracing.equidistance import equidistant
+from decomp.tracing.fields import site_fields
+from decomp.vectors import Array, Ints, norm, place
+
+CLEAR = 1e-9
+"""Points nearer to a site than this part of the size have no direction from it."""
+
+
+@dataclass(frozen=True, eq=False)
+class SheetSurface:
+    """Points at equal distance from two sites, near known ones.
+
+    Args:
+        incidence: of the region.
+        sites: a and b; normals point from a's side to b's.
+        points, feet: known points (k, 3) and their feet (k, 2, 3), from which others are found.
+    """
+
+    incidence: Incidence
+    sites: tuple[int, int]
+    points: Array
+    feet: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_tree", cKDTree(self.points))
+
+    def place(self, points: Array) -> Array:
+        """Move points (k, 3) straight onto the surface.
+
+        Raises:
+            GeometryError: Newton's method fails at one of them.
+        """
+        if not len(points):
+            return np.array(points)
+        placed, converged = self.try_place(points)
+        if not converged.all():
+            bad = points[~converged][0]
+            names = " and ".join(self.incidence.sites[s].name for s in self.sites)
+            raise GeometryError(
+                f"a point near {place(bad)} cannot be moved onto the sheet between {names}"
+            )
+        return placed
+
+    def try_place(self, points: Array) -> tuple[Array, Array]:
+        """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
+        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        found = equidistant(
+            self.incidence.boundary,
+            self.incidence.sites,
+            which,
+            points,
+            self.feet[self._nearest(points)],
+        )
+        return found.points, found.converged
+
+    def normal(self, points: Array) -> Array:
+        """Unit normals (k, 3): the difference of the distances' gradients.
+
+        Where a point is on a site itself (at a vertex in which a reentrant edge ends) the normal
+        is that of the known point nearest to it that is not.
+        """
+        difference = self._difference(points, self._nearest(points))
+        length = norm(difference)
+        lost = length <= CLEAR
+        if lost.any():
+            known = self._difference(self.points, np.arange(len(self.points)))
+            good = np.flatnonzero(norm(known) > 1e-3)
+            if not len(good):
+                raise GeometryError(f"the sheet at {place(points[lost][0])} has no normal")
+            nearest = cKDTree(self.points[good]).query(points[lost])[1]
+            difference[lost] = known[good[nearest]]
+            length = norm(difference)
+        return np.asarray(difference / length[:, None])
+
+    def _difference(self, points: Array, rows: Ints) -> Array:
+        gradients = []
+        it = self.incidence
+        for column, site in enumerate(self.sites):
+            which: Ints = np.full(len(points), site, dtype=np.int64)
+            field = site_fields(it.boundary, it.sites, which, points, self.feet[rows, column])
+            gradients.append(field.gradient)
+        return np.asarray(gradients[0] - gradients[1])
+
+    def _nearest(self, points: Array) -> Ints:
+        tree: cKDTree = object.__getattribute__(self, "_tree")
+        return np.asarray(tree.query(points)[1], dtype=np.int64)

@@ -1,0 +1,92 @@
+"""Trim surfaces: the normals along an edge, from the edge to the skeleton.
+
+Beside the surface the nearest site changes from a face to the edge, but the nearest point does not
+jump, so it is no part of the skeleton. It parts face cells.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.medial.normal_curves import NormalCurve
+from decomp.vectors import Array, Ints, cross, dot, norm
+
+RUNGS = (0.0, 0.3, 0.6, 0.9)
+"""Parts of the normals' lengths at which points are known."""
+
+
+@dataclass(frozen=True, eq=False)
+class RuledSurface:
+    """The surface of a normal curve's normals, from the boundary up to the trim.
+
+    Far from the boundary normals meet, so a point alone does not tell which one it is on; known
+    points close by do.
+
+    Args:
+        curve: of the normals.
+        sense: +1 or -1: multiplies tangent x direction to a normal.
+        s, height: parameters (k,) and lengths of normals up to the trim.
+    """
+
+    curve: NormalCurve
+    sense: float
+    s: Array
+    height: Array
+    _known: tuple[cKDTree, Array] = field(init=False)
+
+    def __post_init__(self) -> None:
+        s = np.tile(self.s, len(RUNGS))
+        up = np.concatenate([rung * self.height for rung in RUNGS])
+        points = self.curve.feet(s) + up[:, None] * self.curve.directions(s)
+        object.__setattr__(self, "_known", (cKDTree(points), s))
+
+    def place(self, points: Array) -> Array:
+        """Points (k, 3) moved to the normal through the foot of their parameter."""
+        s = self._parameter(points)
+        feet, ways = self.curve.feet(s), self.curve.directions(s)
+        return np.asarray(feet + dot(points - feet, ways)[:, None] * ways)
+
+    def normal(self, points: Array) -> Array:
+        """Unit normals (k, 3): across the ruling and the change along the curve."""
+        s = self._parameter(points)
+        h = 1e-6 * (self.curve.end - self.curve.start)
+        feet, ways = self.curve.feet(s), self.curve.directions(s)
+        height = dot(points - feet, ways)
+        low, high = self.curve.feet(s - h), self.curve.feet(s + h)
+        turn = self.curve.directions(s + h) - self.curve.directions(s - h)
+        along = high - low + height[:, None] * turn
+        # where the surface ends in a point the rulings fan out
+        flat = norm(along) <= 1e-12 * (1 + np.abs(height))
+        along[flat] = turn[flat]
+        across = self.sense * cross(along, ways)
+        length = norm(across)
+        return np.asarray(across / np.where(length > 0, length, 1.0)[:, None])
+
+    def _parameter(self, points: Array) -> Array:
+        tree, s = self._known
+        return self.curve.parameter(points, s[tree.query(points)[1]])
+
+
+def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
+    """Triangles (m, 3) between two polylines of vertices over one parameter.
+
+    Args:
+        lower, upper: vertices from the least to the greatest parameter.
+        lower_s, upper_s: their parameters, ascending.
+    """
+    i = j = 0
+    triangles = []
+    while i + 1 < len(lower) or j + 1 < len(upper):
+        go_lower = j + 1 >= len(upper) or (i + 1 < len(lower) and lower_s[i + 1] <= upper_s[j + 1])
+        if go_lower:
+            triangles.append((lower[i], lower[i + 1], upper[j]))
+            i += 1
+        else:
+            triangles.append((lower[i], upper[j + 1], upper[j]))
+            j += 1
+    found = np.array(triangles, dtype=np.int64).reshape(-1, 3)
+    a, b, c = found.T
+    return np.asarray(found[(a != b) & (b != c) & (c != a)])

@@ -1,0 +1,1 @@
+"""Maximal balls, equidistant points, and the seams and junctions that are traced from them."""

@@ -1,0 +1,121 @@
+"""Compiled nearest-boundary queries inside one region, one point at a time.
+
+They tell distance and foot, not which of several faces on one carrier it is: `SiteIndex.nearest`
+names sites.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from decomp.sites import SiteIndex
+from decomp.sites.box_tree import BoxTree, nearest_in_boxes
+from decomp.sites.candidates import CandidateTree
+from decomp.sites.carrier_kernels import Triple, foot
+from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
+from decomp.sites.occupancy import OccupancyTree, label_at, private
+from decomp.sites.octree import locate
+from decomp.sites.site_bounds import edge_foot
+from decomp.sites.site_table import SiteTable
+from decomp.tracing.compiled import inlined, scalar
+from decomp.vectors import Array
+
+TOUCH = 1e-11
+"""Distances that differ by less than this part of the size count as equal."""
+TOWARDS = 0.3
+"""How far towards a foot a query is made to see whether the foot is on the boundary."""
+HOLDS, INTRUDED, LOST, JOINED = 0, 1, 2, -1
+APART = 1e-3
+"""Feet farther apart than this part of the radius are different contacts."""
+
+
+class Probe(NamedTuple):
+    """All that queries in one region need.
+
+    Args:
+        occupancy: tells regions apart; with scratch of its own.
+        sites, candidates, boxes: of the region.
+        label: its index.
+        slack: distances that differ by less count as equal.
+    """
+
+    occupancy: OccupancyTree
+    sites: SiteTable
+    candidates: CandidateTree
+    boxes: BoxTree
+    label: int
+    slack: float
+
+
+def probe(index: SiteIndex, region: int, size: float) -> Probe:
+    """Collect what queries in a region need."""
+    part = index._part(region)
+    return Probe(
+        private(index.occupancy),
+        part.sites.table,
+        part.candidates,
+        part.boxes,
+        region,
+        TOUCH * size,
+    )
+
+
+@inlined
+def inside(probe: Probe, x: float, y: float, z: float) -> bool:
+    """Whether a point is in the region."""
+    return label_at(probe.occupancy, x, y, z) == probe.label
+
+
+@inlined
+def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
+    """The nearest boundary point of the region, for points in it or close to it."""
+    hit = no_hit()
+    leaf = locate(probe.candidates.tree, x, y, z)
+    if leaf >= 0:
+        for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
+            k = probe.candidates.items[m]
+            hit = better_inlined(probe.occupancy, probe.sites, probe.label, k, x, y, z, hit)
+    if hit.candidate == NONE:
+        hit = nearest_in_boxes(probe.occupancy, probe.sites, probe.boxes, probe.label, x, y, z)
+    return hit
+
+
+@inlined
+def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple:
+    """The foot on a candidate's support, or on a part of an edge."""
+    sites = probe.sites
+    faces, edges = len(sites.face_carriers), len(sites.kinds)
+    if k < faces:
+        return foot(probe.occupancy.table, sites.face_carriers[k], x, y, z)
+    if k < faces + edges:
+        _, qx, qy, qz = edge_foot(sites, probe.occupancy.table, k - faces, x, y, z, 0.0)
+        return qx, qy, qz
+    v = k - faces - edges
+    return sites.vertices[v, 0], sites.vertices[v, 1], sites.vertices[v, 2]
+
+
+@scalar
+def another(
+    probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
+) -> bool:
+    """Whether a ball touches the boundary at another foot than `count` known ones."""
+    reach = (radius + probe.slack) ** 2
+    leaf = locate(probe.candidates.tree, x, y, z)
+    if leaf < 0:
+        return False
+    for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
+        qx, qy, qz = candidate_foot(probe, probe.candidates.items[m], x, y, z)
+        if (qx - x) ** 2 + (qy - y) ** 2 + (qz - z) ** 2 > reach:
+            continue
+        known = False
+        for c in range(count):
+            dx, dy, dz = qx - feet[first + c, 0], qy - feet[first + c, 1], qz - feet[first + c, 2]
+            if dx * dx + dy * dy + dz * dz <= (APART * radius) ** 2:
+                known = True
+        if known:
+            continue
+        px, py, pz = x + TOWARDS * (qx - x), y + TOWARDS * (qy - y), z + TOWARDS * (qz - z)
+        away = nearest_hit(probe, px, py, pz).distance
+        if away <= (1.0 - TOWARDS) * radius + probe.slack:
+            return True
+    return False

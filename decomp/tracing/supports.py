@@ -1,0 +1,263 @@
+"""Supports of sites as arrays, and compiled kernels for distance, gradient and foot.
+
+A site's support is its untrimmed extent: a face's carrier, an edge's curve near a known foot, a
+vertex's point. So the distance is smooth where the site itself ends. All reentrant and smooth edges
+and all vertices have supports, whether they are sites or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import sqrt
+from typing import NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from decomp.boundary.topology import Edge, RegionBoundary
+from decomp.curves.circle import Circle
+from decomp.curves.line import Line
+from decomp.sites.carrier_kernels import (
+    CONE,
+    CYLINDER,
+    PLANE,
+    SPHERE,
+    CarrierTable,
+    Triple,
+    carrier_table,
+    foot,
+    normal,
+    radial,
+    signed_distance,
+)
+from decomp.sites.site import Site, SiteKind
+from decomp.tracing.compiled import scalar
+from decomp.vectors import Array, Ints
+
+FACE, LINE, CIRCLE, CURVE, POINT, NOTHING = range(6)
+FOOT_STEPS = 20
+
+Field = tuple[float, float, float, float, float, float, float]
+
+
+class SupportTable(NamedTuple):
+    """Supports of all sites, in their order, then of the region's edges, then of its vertices.
+
+    Args:
+        kinds: (n,), NOTHING for sites of other regions.
+        signs: (n,), by which a face's signed distance is positive inside the region.
+        flanks: carriers (n, 2) of an edge; a face's own carrier first.
+        data: (n, 10): line: origin, direction; circle: centre, x, y, radius; point: itself.
+        carriers: of the model.
+        first_edge: row of the region's first edge.
+        first_vertex: row of its first vertex.
+    """
+
+    kinds: Ints
+    signs: Array
+    flanks: Ints
+    data: Array
+    carriers: CarrierTable
+    first_edge: int
+    first_vertex: int
+
+
+_TABLES: WeakKeyDictionary[RegionBoundary, tuple[Sequence[Site], SupportTable]] = (
+    WeakKeyDictionary()
+)
+
+
+def support_table(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
+    """Lay out the supports of a region; made once for each boundary and its sites."""
+    known = _TABLES.get(boundary)
+    if known is None or known[0] is not sites:
+        known = (sites, _laid_out(boundary, sites))
+        _TABLES[boundary] = known
+    return known[1]
+
+
+def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
+    edges, vertices = boundary.edges, boundary.vertices
+    count = len(sites) + len(edges) + len(vertices)
+    kinds = np.full(count, NOTHING)
+    signs = np.ones(count)
+    flanks = np.zeros((count, 2), dtype=np.int64)
+    data = np.zeros((count, 10))
+
+    def put_edge(row: int, edge: Edge) -> None:
+        curve = edge.curve
+        flanks[row] = edge.carriers
+        if isinstance(curve, Line):
+            kinds[row] = LINE
+            data[row, :6] = *curve.origin, *curve.direction
+        elif isinstance(curve, Circle):
+            kinds[row] = CIRCLE
+            data[row] = *curve.centre, *curve.x, *curve.y, curve.radius
+        else:
+            kinds[row] = CURVE
+
+    for row, site in enumerate(sites):
+        if site.kind is SiteKind.FACE and site.index < len(boundary.faces):
+            face = boundary.faces[site.index]
+            kinds[row], signs[row], flanks[row] = FACE, -face.outward, face.carrier
+        elif site.kind is SiteKind.EDGE and site.index < len(edges):
+            put_edge(row, edges[site.index])
+        elif site.kind is SiteKind.VERTEX and site.index < len(vertices):
+            kinds[row], data[row, :3] = POINT, vertices[site.index].point
+    for row, edge in enumerate(edges, len(sites)):
+        put_edge(row, edge)
+    for row, vertex in enumerate(vertices, len(sites) + len(edges)):
+        kinds[row], data[row, :3] = POINT, vertex.point
+    return SupportTable(
+        kinds,
+        signs,
+        flanks,
+        data,
+        carrier_table(boundary.carriers),
+        len(sites),
+        len(sites) + len(edges),
+    )
+
+
+@scalar
+def support(
+    table: SupportTable, k: int, x: float, y: float, z: float, qx: float, qy: float, qz: float
+) -> Field:
+    """Distance from support k, its gradient and the foot; (qx, qy, qz) is a foot close by."""
+    kind, data = table.kinds[k], table.data
+    if kind == FACE:
+        carrier, sign = table.flanks[k, 0], table.signs[k]
+        away = signed_distance(table.carriers, carrier, x, y, z)
+        nx, ny, nz = normal(table.carriers, carrier, x, y, z)
+        qx, qy, qz = foot(table.carriers, carrier, x, y, z)
+        return sign * away, sign * nx, sign * ny, sign * nz, qx, qy, qz
+    if kind == LINE:
+        dx, dy, dz = data[k, 3], data[k, 4], data[k, 5]
+        along = (x - data[k, 0]) * dx + (y - data[k, 1]) * dy + (z - data[k, 2]) * dz
+        qx, qy, qz = data[k, 0] + along * dx, data[k, 1] + along * dy, data[k, 2] + along * dz
+    elif kind == CIRCLE:
+        vx, vy, vz = x - data[k, 0], y - data[k, 1], z - data[k, 2]
+        u = vx * data[k, 3] + vy * data[k, 4] + vz * data[k, 5]
+        v = vx * data[k, 6] + vy * data[k, 7] + vz * data[k, 8]
+        rho = sqrt(u * u + v * v)
+        if rho <= 1e-15 * data[k, 9]:
+            # on the axis every point of the circle is a foot
+            u, v, rho = 1.0, 0.0, 1.0
+        u, v = data[k, 9] * (u / rho), data[k, 9] * (v / rho)
+        qx = data[k, 0] + u * data[k, 3] + v * data[k, 6]
+        qy = data[k, 1] + u * data[k, 4] + v * data[k, 7]
+        qz = data[k, 2] + u * data[k, 5] + v * data[k, 8]
+    elif kind == CURVE:
+        a, b = table.flanks[k, 0], table.flanks[k, 1]
+        qx, qy, qz = curve_foot(table.carriers, a, b, x, y, z, qx, qy, qz)
+    else:
+        qx, qy, qz = data[k, 0], data[k, 1], data[k, 2]
+    gx, gy, gz = x - qx, y - qy, z - qz
+    away = sqrt(gx * gx + gy * gy + gz * gz)
+    if away > 0.0:
+        gx, gy, gz = gx / away, gy / away, gz / away
+    return away, gx, gy, gz, qx, qy, qz
+
+
+@scalar
+def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> Triple:
+    """Unit tangent of an edge's curve at a point on it; its sense is arbitrary but continuous."""
+    kind, data = table.kinds[k], table.data
+    if kind == LINE:
+        return data[k, 3], data[k, 4], data[k, 5]
+    if kind == CIRCLE:
+        vx, vy, vz = qx - data[k, 0], qy - data[k, 1], qz - data[k, 2]
+        u = vx * data[k, 3] + vy * data[k, 4] + vz * data[k, 5]
+        v = vx * data[k, 6] + vy * data[k, 7] + vz * data[k, 8]
+        rho = sqrt(u * u + v * v)
+        u, v = u / rho, v / rho
+        return (
+            u * data[k, 6] - v * data[k, 3],
+            u * data[k, 7] - v * data[k, 4],
+            u * data[k, 8] - v * data[k, 5],
+        )
+    nx, ny, nz = normal(table.carriers, table.flanks[k, 0], qx, qy, qz)
+    mx, my, mz = normal(table.carriers, table.flanks[k, 1], qx, qy, qz)
+    tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
+    length = sqrt(tx * tx + ty * ty + tz * tz)
+    if length == 0.0:
+        return 0.0, 0.0, 0.0
+    return tx / length, ty / length, tz / length
+
+
+@scalar
+def normal_curvature(
+    table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
+) -> float:
+    """Curvature of carrier c at a point on it along a unit tangent, see `Carrier`."""
+    packed, code = table.packed, table.codes[c]
+    if code == PLANE:
+        return 0.0
+    if code == SPHERE:
+        return float(1.0 / packed[c, 6])
+    ax, ay, az = packed[c, 3], packed[c, 4], packed[c, 5]
+    ux, uy, uz = radial(packed, c, x, y, z)
+    wx, wy, wz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
+    around = wx * dx + wy * dy + wz * dz
+    if code == CYLINDER:
+        return float(around * around / packed[c, 6])
+    rho = (x - packed[c, 0]) * ux + (y - packed[c, 1]) * uy + (z - packed[c, 2]) * uz
+    if code == CONE:
+        return float(around * around * packed[c, 7] / rho)
+    nx, ny, nz = normal(table, c, x, y, z)
+    sx, sy, sz = wy * nz - wz * ny, wz * nx - wx * nz, wx * ny - wy * nx
+    across = sx * dx + sy * dy + sz * dz
+    parallel = (nx * ux + ny * uy + nz * uz) / rho
+    return float(around * around * parallel + across * across / packed[c, 7])
+
+
+@scalar
+def curve_foot(
+    table: CarrierTable,
+    a: int,
+    b: int,
+    x: float,
+    y: float,
+    z: float,
+    qx: float,
+    qy: float,
+    qz: float,
+) -> Triple:
+    """The foot of a point on the curve in which carriers a and b meet, near a known one.
+
+    Newton's method on a(q) = 0, b(q) = 0, (p - q).t(q) = 0; the derivative of the last by q has
+    the curve's bending k in it: -(1 - (p - q).k) t.
+    """
+    before = 1e300
+    for _ in range(FOOT_STEPS):
+        nx, ny, nz = normal(table, a, qx, qy, qz)
+        mx, my, mz = normal(table, b, qx, qy, qz)
+        tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
+        sine = sqrt(tx * tx + ty * ty + tz * tz)
+        if sine <= 1e-9:
+            break
+        tx, ty, tz = tx / sine, ty / sine, tz / sine
+        cosine = nx * mx + ny * my + nz * mz
+        da = -signed_distance(table, a, qx, qy, qz)
+        db = -signed_distance(table, b, qx, qy, qz)
+        vx, vy, vz = x - qx, y - qy, z - qz
+        ha = -normal_curvature(table, a, qx, qy, qz, tx, ty, tz)
+        hb = -normal_curvature(table, b, qx, qy, qz, tx, ty, tz)
+        square = max(sine * sine, 1e-12)
+        ka, kb = (ha - cosine * hb) / square, (hb - cosine * ha) / square
+        bent = ka * (vx * nx + vy * ny + vz * nz) + kb * (vx * mx + vy * my + vz * mz)
+        along = (vx * tx + vy * ty + vz * tz) / max(1.0 - bent, 0.05)
+        # the step across the curve solves n.s = da, m.s = db in the plane of n and m
+        square = sine * sine
+        ca, cb = (da - cosine * db) / square, (db - cosine * da) / square
+        sx = ca * nx + cb * mx + along * tx
+        sy = ca * ny + cb * my + along * ty
+        sz = ca * nz + cb * mz + along * tz
+        qx, qy, qz = qx + sx, qy + sy, qz + sz
+        length = sqrt(sx * sx + sy * sy + sz * sz)
+        if length <= 1e-16 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
+            break
+        if length >= before and length <= 1e-13 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
+            break
+        before = length
+    return qx, qy, qz
