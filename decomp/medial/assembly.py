@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -274,7 +275,7 @@ class _TrimMaker:
         known = {
             (int(min(side)), int(max(side)))
             for line in self._lines
-            for side in zip(line[:-1], line[1:], strict=True)
+            for side in itertools.pairwise(line)
         }
         found = []
         for a, b in sorted(self._rulings - known):

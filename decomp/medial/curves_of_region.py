@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -142,8 +143,7 @@ def _locus_runs(
     turns = np.flatnonzero((way[1:] * way[:-1]).sum(axis=1) < 0) + 1
     bounds = [0, *turns.tolist(), RUN]
     return [
-        LocusRun(number, s[a : b + 1], points[a : b + 1])
-        for a, b in zip(bounds, bounds[1:], strict=False)
+        LocusRun(number, s[a : b + 1], points[a : b + 1]) for a, b in itertools.pairwise(bounds)
     ]
 
 
@@ -168,12 +168,12 @@ def _trim_piece(
     curve = TrimCurve(incidence, over, far, points, feet)
     points = curve.at(s, balls.radius)
     ends = []
-    for near, next_, at in ((0, 1, trim.start), (-1, -2, trim.end)):
+    for near, next_, stop in ((0, 1, trim.start), (-1, -2, trim.end)):
         r, r2 = float(balls.radius[near]), float(balls.radius[next_])
         if r <= 1e-3 * size and abs(r2 - 2 * r) <= 0.2 * r:
-            ends.append(over.feet(np.array([at]))[0])
+            ends.append(over.feet(np.array([stop]))[0])
         else:
-            ends.append(curve.at(np.array([at]), np.array([r]))[0])
+            ends.append(curve.at(np.array([stop]), np.array([r]))[0])
     points = np.concatenate([ends[0][None], points[2:-2], ends[1][None]])
     whole = over.closed and abs(span - (over.end - over.start)) <= 1e-12 * abs(span)
     if whole:

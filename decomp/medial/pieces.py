@@ -7,6 +7,7 @@ another curve's node lies on them, and pieces that coincide are made one.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -14,7 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.model import CurveElement, LineKind
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Ints, norm
 
 WELD = 1e-7
 """Nodes nearer to each other than this part of the region's size are one."""
@@ -102,11 +103,11 @@ def _is_loop(piece: CurvePiece) -> bool:
     return bool((piece.points[0] == piece.points[-1]).all()) and len(piece.points) > 3
 
 
-def _welded(points: Array, fixed: int, tolerance: float) -> tuple[Array, Array]:
+def _welded(points: Array, fixed: int, tolerance: float) -> tuple[Array, Ints]:
     """Unique points and for each point its number; the first `fixed` points keep their numbers."""
     which = np.full(len(points), -1, dtype=np.int64)
     which[:fixed] = np.arange(fixed)
-    unique = [p for p in points[:fixed]]
+    unique = list(points[:fixed])
     tree = cKDTree(points)
     for k in range(len(points)):
         if which[k] < 0:
@@ -165,7 +166,7 @@ def _split(piece: CurvePiece, nodes: Array, stops: list[tuple[float, int]]) -> l
         bounds = [(0.0, piece.ends[0]), *stops, (float(last), piece.ends[1])]
         cycle = piece.points
     parts = []
-    for (a, one), (b, two) in zip(bounds, bounds[1:], strict=False):
+    for (a, one), (b, two) in itertools.pairwise(bounds):
         low, high = int(np.floor(a + 1e-6)) + 1, int(np.ceil(b - 1e-6)) - 1
         inner = cycle[low : high + 1]
         points = np.concatenate([nodes[one][None], inner, nodes[two][None]])

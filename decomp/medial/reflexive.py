@@ -4,9 +4,9 @@ A point of a cylinder's or cone's axis, of a torus's spine or axis, or a sphere'
 from all points of a circle (or sphere) of its carrier. It is in the skeleton where no boundary
 point is nearer and the carrier's own face is touched in more than one point.
 
-The depth F(u) = d(carrier) - d(boundary) at the locus point u is zero there. It changes at most twice
-as fast as u, which tells how far from a point with |F| > 0 there can be no zero; F < 0 means that
-the carrier's nearest points are not on the boundary.
+The depth F(u) = d(carrier) - d(boundary) at the locus point u is zero there. It changes at most
+twice as fast as u, which tells how far from a point with |F| > 0 there can be no zero; F < 0 means
+that the carrier's nearest points are not on the boundary.
 """
 
 from __future__ import annotations

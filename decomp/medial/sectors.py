@@ -18,6 +18,7 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.pieces import CurvePiece
 from decomp.sites import SiteIndex
+from decomp.sites.occupancy import Labels
 from decomp.vectors import Array, frame, norm, place
 
 RING = 360
@@ -83,7 +84,7 @@ def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pa
     reach = REACH * min(radius, piece.length)
     angles = np.linspace(0, 2 * np.pi, RING, endpoint=False) + 0.1234567
 
-    def at(angle: Array) -> tuple[Array, Array]:
+    def at(angle: Array) -> tuple[Labels, Array]:
         ring = middle + reach * (np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y)
         found = index.nearest(ring)
         if (found.region != incidence.region).any():

@@ -11,7 +11,7 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm, place
 
 CLEAR = 1e-9
 """Points nearer to a site than this part of the size have no direction from it."""
@@ -52,7 +52,7 @@ class SheetSurface:
             )
         return placed
 
-    def try_place(self, points: Array) -> tuple[Array, Array]:
+    def try_place(self, points: Array) -> tuple[Array, Bools]:
         """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
         found = equidistant(

@@ -7,6 +7,7 @@ Between two changes lies one piece of trim.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -86,7 +87,7 @@ class TrimScanner:
             first = samples[0]
             samples.append(_Sample(curve.end, first.far, first.foot, first.radius))
         cuts: list[tuple[_Sample, _Sample]] = []
-        for low, high in zip(samples, samples[1:], strict=False):
+        for low, high in itertools.pairwise(samples):
             self._changes(curve, low, high, cuts)
         bounds = [self._change(curve, low, high) for low, high in cuts]
         return self._between(curve, samples, cuts, bounds)
