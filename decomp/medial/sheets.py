@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.carriers import Sphere
 from decomp.complex.domains import Domain, domain_of
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import PLANE, Triangulation, crossings, triangulate
@@ -178,13 +179,11 @@ class SheetMaker:
         """A direction from a sphere's centre in which no sheet of the pair lies."""
         face = self._boundary.faces[self._incidence.sites[site].index]
         sphere = self._boundary.carriers[face.carrier]
+        assert isinstance(sphere, Sphere)
+        centre, radius = sphere.centre, sphere.radius
         rng = np.random.default_rng(0)
         ways = rng.normal(size=(2000, 3))
         ways /= norm(ways)[:, None]
-        centre = sphere.foot(np.zeros((1, 3)))[0] - (
-            sphere.radius * sphere.normal(sphere.foot(np.zeros((1, 3))))[0]
-        )
-        radius = float(sphere.radius)
         q = centre + radius * ways
         clear = np.min(norm(q[:, None] - feet[None]), axis=1)
         order = np.argsort(-clear)
