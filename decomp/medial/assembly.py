@@ -176,7 +176,7 @@ class RegionAssembler:
                 a, b = sorted(incidence.face_site[f] for f in edge.faces)
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
         kinks = self._kinks(nodes)
-        maker = SheetMaker(self._index, incidence, points)
+        maker = SheetMaker(self._index, incidence, points, self._add)
         own = SelfSheetMaker(self._index, incidence, points)
         sheets = []
         for pair in sorted(borders):

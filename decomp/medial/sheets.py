@@ -7,7 +7,7 @@ domain into components; each is in the skeleton or not, as exact queries inside 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,14 +16,21 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.carriers import Sphere
 from decomp.complex.domains import Domain, domain_of
 from decomp.complex.model import SurfaceElement
-from decomp.complex.planar import PLANE, Triangulation, crossings, triangulate
+from decomp.complex.planar import (
+    PLANE,
+    Period,
+    SparseError,
+    Triangulation,
+    crossings,
+    triangulate,
+)
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.reflexive import reflexive_gap
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
-from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.balls import Balls, inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
@@ -31,6 +38,12 @@ TESTS = 7
 """Triangles of each component at which it is asked what it is."""
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 OFF = 1e-6
+ROUNDS = 12
+FILL = 6
+"""Points per period with which a domain that has too few is filled."""
+COARSE = 0.15
+"""Triangles whose middles are farther from the sheet than this part of their longest side are
+divided before anything else, so that all are on the right side of the solid."""
 FLAT = 1e-10
 
 
@@ -61,6 +74,38 @@ class SheetPart:
     triangles: Ints
 
 
+@dataclass(eq=False)
+class _Draft:
+    """The sheets of a pair as they are drawn in their domain.
+
+    Args:
+        pair: the sites.
+        used: (k,) the vertices that border them or are kinks: the first of the points.
+        points, uv: (n, 3) and (n, 2); beyond the first k are points inside the sheets.
+        segments: (m, 2) indices of points.
+        domain: None for a plane that the sheets are projected to.
+        column: of which site the domain is the footprint.
+    """
+
+    pair: tuple[int, int]
+    used: Ints
+    points: Array
+    uv: Array
+    segments: Ints
+    domain: Domain | None
+    column: int
+
+    @property
+    def period(self) -> Period:
+        """Of the domain."""
+        return PLANE if self.domain is None else self.domain.period
+
+    def add(self, uv: Array, points: Array) -> None:
+        """More points inside."""
+        self.uv = np.concatenate([self.uv, uv])
+        self.points = np.concatenate([self.points, points])
+
+
 class SheetMaker:
     """Triangulates the sheets of one region over given vertices.
 
@@ -68,10 +113,18 @@ class SheetMaker:
         index: nearest-site queries.
         incidence: of the region.
         points: (n, 3) all vertices.
+        add: makes a point (3,) a vertex and returns its number.
     """
 
-    def __init__(self, index: SiteIndex, incidence: Incidence, points: Array) -> None:
+    def __init__(
+        self,
+        index: SiteIndex,
+        incidence: Incidence,
+        points: Array,
+        add: Callable[[Array], int],
+    ) -> None:
         self._index, self._incidence, self._points = index, incidence, points
+        self._add = add
         self._size = incidence.boundary.diagonal
 
     @property
@@ -94,7 +147,6 @@ class SheetMaker:
         """
         segments = segments_of(lines)
         used = np.unique(np.concatenate([segments.ravel(), np.array(isolated, dtype=np.int64)]))
-        local = np.searchsorted(used, segments)
         points = self._points[used]
         feet = self._feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
@@ -105,21 +157,96 @@ class SheetMaker:
             column = self._better(pair, points)
             domain = self._domain(pair[column], points, feet[:, column], surface)
             uv = domain.to_plane(feet[:, column], points)
-        period = PLANE if domain is None else domain.period
-        bad = crossings(uv, local, period)
+        draft = _Draft(pair, used, points, uv, np.searchsorted(used, segments), domain, column)
+        self._check_crossings(draft)
+        found, keep = self._triangulated(draft, surface)
+        return self._parts(draft, surface, found, keep)
+
+    def _check_crossings(self, draft: _Draft) -> None:
+        bad = crossings(draft.uv, draft.segments, draft.period)
         if len(bad):
             rows = np.unique(bad)
+            where = place(draft.points[draft.segments[rows[0], 0]])
             raise CrossingError(
-                f"curves cross in the footprint near {place(points[local[rows[0], 0]])}",
-                used[local[rows]],
+                f"curves cross in the footprint near {where}", draft.used[draft.segments[rows]]
             )
-        found = triangulate(uv, local, period)
-        keep = self._kept(pair, found, points, domain, column, surface)
+
+    def _triangulated(
+        self, draft: _Draft, surface: SheetSurface
+    ) -> tuple[Triangulation, list[int]]:
+        """A triangulation whose triangles follow the sheets roughly, and the sheets' components."""
+        for _ in range(ROUNDS):
+            try:
+                found = triangulate(draft.uv, draft.segments, draft.period)
+            except SparseError as error:
+                self._fill(draft, error)
+                continue
+            keep = self._kept(draft.pair, found, draft, surface)
+            if draft.domain is None or not self._add_where_coarse(draft, found, keep):
+                return found, keep
+        names = " and ".join(self._incidence.sites[s].name for s in draft.pair)
+        raise GeometryError(
+            f"the sheet between {names} near {place(draft.points[0])} cannot be triangulated"
+        )
+
+    def _fill(self, draft: _Draft, error: SparseError) -> None:
+        """Add points to a periodic domain that has too few, where the sheets are if possible."""
+        domain = draft.domain
+        if domain is None:
+            raise error
+        spots = error.places
+        if not len(spots):
+            low, high = draft.uv.min(axis=0), draft.uv.max(axis=0)
+            count = FILL + len(draft.used) - len(draft.uv)
+            sides = []
+            for k, period in enumerate(draft.period):
+                start, length = float(low[k]), float(high[k] - low[k])
+                sides.append(start + (period or length) * (np.arange(count) + 0.5) / count)
+            spots = np.array(np.meshgrid(*sides)).reshape(2, -1).T
+        feet, inward = domain.lift(spots)
+        on = self._on(draft.pair[draft.column], feet, inward)
+        if not on.any():
+            raise error
+        centres = self._balls(feet[on], inward[on]).centre
+        draft.add(spots[on], centres)
+
+    def _add_where_coarse(self, draft: _Draft, found: Triangulation, keep: list[int]) -> bool:
+        """Add inner points where triangles leave their sheet by much; whether there were any."""
+        domain = draft.domain
+        rows = np.flatnonzero(np.isin(found.component, keep))
+        if domain is None or not len(rows):
+            return False
+        corners = draft.points[found.triangles[rows]]
+        sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+        feet, inward = domain.lift(found.centroids[rows])
+        balls = self._balls(feet, inward)
+        off = norm(balls.centre - corners.mean(axis=1))
+        coarse = off > COARSE * sides
+        coarse &= balls.site == draft.pair[1 - draft.column]
+        if not coarse.any():
+            return False
+        draft.add(found.centroids[rows][coarse], balls.centre[coarse])
+        return True
+
+    def _parts(
+        self, draft: _Draft, surface: SheetSurface, found: Triangulation, keep: list[int]
+    ) -> list[SheetPart]:
+        inner = len(draft.used)
+        if len(draft.points) > inner:
+            surface = SheetSurface(
+                self._incidence, draft.pair, draft.points, self._feet(draft.pair, draft.points)
+            )
+        numbers = np.full(len(draft.points), -1, dtype=np.int64)
+        numbers[:inner] = draft.used
+        kept = np.isin(found.component, keep)
+        for k in np.unique(found.triangles[kept]):
+            if k >= inner:
+                numbers[k] = self._add(draft.points[k])
         parts = []
         for number in keep:
             triangles = found.triangles[found.component == number]
-            oriented = self._oriented(surface, points, triangles)
-            parts.append(SheetPart(pair, surface, used[oriented]))
+            oriented = self._oriented(surface, draft.points, triangles)
+            parts.append(SheetPart(draft.pair, surface, numbers[oriented]))
         return parts
 
     def _feet(self, pair: tuple[int, int], points: Array) -> Array:
@@ -137,8 +264,8 @@ class SheetMaker:
         return feet
 
     def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
-        """Plane coordinates of points that all lie in a plane, unless a plane face is at hand."""
-        if any(self._rank(site) == 0 for site in pair):
+        """Plane coordinates of points that all lie in a plane, if neither site is a face."""
+        if any(self._incidence.sites[site].kind is SiteKind.FACE for site in pair):
             return None
         middle = points.mean(axis=0)
         _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
@@ -193,33 +320,36 @@ class SheetMaker:
             raise GeometryError(f"the sheet around the sphere at {place(centre)} has no boundary")
         return np.asarray(ways[order[int(np.argmax(ok))]])
 
-    def _touches(self, site: int, other: int, feet: Array, inward: Array) -> Bools:
-        """Whether feet (k, 3) are on a site and the maximal balls there touch another."""
-        result = np.zeros(len(feet), dtype=np.bool_)
+    def _on(self, site: int, feet: Array, inward: Array) -> Bools:
+        """Whether feet (k, 3) are on a site, as seen in directions into the region (k, 3)."""
         step = OFF * self._size
         near = self._index.nearest(feet + step * inward)
         on = (near.region == self._incidence.region) & (np.abs(near.distance - step) < 1e-3 * step)
-        rows = np.flatnonzero(on & (near.site == site))
-        if self._incidence.sites[site].kind is not SiteKind.FACE:
-            rows = np.flatnonzero(on)
-        if not len(rows):
-            return result
-        balls = inscribed_balls(
-            self._index, self._boundary, self._incidence.region, feet[rows], inward[rows]
-        )
-        result[rows] = balls.site == other
+        if self._incidence.sites[site].kind is SiteKind.FACE:
+            on &= near.site == site
+        return np.asarray(on)
+
+    def _balls(self, feet: Array, inward: Array) -> Balls:
+        region = self._incidence.region
+        return inscribed_balls(self._index, self._boundary, region, feet, inward)
+
+    def _touches(self, site: int, other: int, feet: Array, inward: Array) -> Bools:
+        """Whether feet (k, 3) are on a site and the maximal balls there touch another."""
+        result = np.zeros(len(feet), dtype=np.bool_)
+        rows = np.flatnonzero(self._on(site, feet, inward))
+        if len(rows):
+            result[rows] = self._balls(feet[rows], inward[rows]).site == other
         return result
 
     def _kept(
         self,
         pair: tuple[int, int],
         found: Triangulation,
-        points: Array,
-        domain: Domain | None,
-        column: int,
+        draft: _Draft,
         surface: SheetSurface,
     ) -> list[int]:
         """Numbers of the components that are sheets."""
+        points, domain, column = draft.points, draft.domain, draft.column
         rows, owner = [], []
         for number in range(found.components):
             members = np.flatnonzero(found.component == number)
