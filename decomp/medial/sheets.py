@@ -28,6 +28,7 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.reflexive import reflexive_gap
 from decomp.medial.sheet_surface import SheetSurface
+from decomp.medial.unrolled import unrolled
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing.balls import Balls, inscribed_balls
@@ -156,6 +157,12 @@ class SheetMaker:
         else:
             column = self._better(pair, points)
             domain = self._domain(pair[column], points, feet[:, column], surface)
+            own, other = pair[column], pair[1 - column]
+            domain = unrolled(
+                domain,
+                domain.to_plane(feet[:, column], points),
+                lambda at: self._touches(own, other, *domain.lift(at)),
+            )
             uv = domain.to_plane(feet[:, column], points)
         draft = _Draft(pair, used, points, uv, np.searchsorted(used, segments), domain, column)
         self._check_crossings(draft)
