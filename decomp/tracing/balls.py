@@ -16,12 +16,10 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
-from decomp.tracing.fields import site_fields
-from decomp.tracing.probing import TOWARDS, probe
+from decomp.tracing.probing import TOWARDS
+from decomp.tracing.queries import RegionQueries, region_queries
 from decomp.tracing.shrinking import OSCULATES, RESTLESS, SIZELESS, TOUCHES, shrink
-from decomp.vectors import Array, Ints, dot, norm, place
-
-POLISHINGS = 4
+from decomp.vectors import Array, Ints, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,61 +48,35 @@ def inscribed_balls(
     Raises:
         GeometryError: there is no ball at a point, or it is not found; says where.
     """
-    balls, state = balls_at(index, boundary, region, points, inward)
+    queries = region_queries(index, region)
+    balls, state = balls_at(queries, points, inward, boundary.diagonal)
     for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
         if (state == bad).any():
             where = place(points[np.argmax(state == bad)])
             raise GeometryError(f"the ball that touches the boundary at {where} {what}")
+    two = np.flatnonzero(state == TOUCHES)
+    towards = balls.centre[two] + TOWARDS * (balls.foot[two] - balls.centre[two])
+    balls.site[two] = queries.nearest(towards).site
     return balls
 
 
 def balls_at(
-    index: SiteIndex, boundary: RegionBoundary, region: int, points: Array, inward: Array
+    queries: RegionQueries, points: Array, inward: Array, size: float
 ) -> tuple[Balls, Ints]:
-    """The same for points that may be off the boundary, and what `shrink` says of each (k,)."""
+    """The same for points that may be off the boundary, and what `shrink` says of each (k,).
+
+    `site` does not tell the faces of a carrier apart.
+    """
     points = np.ascontiguousarray(points, dtype=np.float64)
     inward = np.ascontiguousarray(inward, dtype=np.float64)
-    size, n = boundary.diagonal, len(points)
+    n = len(points)
     radius, foot = np.empty(n), np.empty((n, 3))
-    state = np.empty(n, dtype=np.int64)
-    queries = probe(index, region, size)
-    shrink(queries, points, inward, size, np.full(n, size), radius, foot, state)
+    state, candidates = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    start = np.full(n, size)
+    shrink(queries.probe, points, inward, size, start, radius, foot, candidates, state)
     foot[state == OSCULATES] = points[state == OSCULATES]
-    site = np.full(n, -1, dtype=np.int64)
-    two = np.flatnonzero(state == TOUCHES)
-    centre = points[two] + radius[two, None] * inward[two]
-    site[two] = index.nearest(centre + TOWARDS * (foot[two] - centre)).site
-    found = Balls(points + radius[:, None] * inward, radius, site, foot)
-    return _polished(index, boundary, points, inward, found, two), state
-
-
-def _polished(
-    index: SiteIndex,
-    boundary: RegionBoundary,
-    points: Array,
-    inward: Array,
-    balls: Balls,
-    two: Ints,
-) -> Balls:
-    """Make second contacts exact, where they are far enough from the first for that."""
-    size = boundary.diagonal
-    radius, foot = balls.radius[two], balls.foot[two]
-    site, start, normal = balls.site[two], points[two], inward[two]
-    for _ in range(POLISHINGS):
-        field = site_fields(boundary, index.sites, site, start + radius[:, None] * normal, foot)
-        slope = 1 - dot(field.gradient, normal)
-        step = (field.distance - radius) / np.where(slope > 0, slope, 1.0)
-        near = (
-            (slope > 1e-6)
-            & (np.abs(step) <= 1e-4 * np.minimum(radius, size))
-            & (norm(field.foot - foot) <= 1e-2 * radius)
-        )
-        radius = np.where(near, radius + step, radius)
-        foot = np.where(near[:, None], field.foot, foot)
-    result = Balls(balls.centre, balls.radius, balls.site, balls.foot)
-    result.radius[two], result.foot[two] = radius, foot
-    result.centre[two] = start + radius[:, None] * normal
-    return result
+    site = queries.kinds(candidates)
+    return Balls(points + radius[:, None] * inward, radius, site, foot), state
 
 
 def largest_gap(index: SiteIndex, region: int, centre: Array, radius: Array) -> float:

@@ -14,7 +14,8 @@ from decomp.sites.octree import locate
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import scalar
 from decomp.tracing.fields import support_fields
-from decomp.tracing.probing import TOWARDS, Probe, candidate_foot, probe
+from decomp.tracing.probing import TOWARDS, Probe, candidate_foot
+from decomp.tracing.queries import region_queries
 from decomp.tracing.supports import support_table
 from decomp.vectors import Array, norm
 
@@ -50,10 +51,11 @@ class ContactFinder:
     """Finds contacts in one region."""
 
     def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
-        self._index, self._boundary = index, boundary
+        self._boundary = boundary
         self._sites = index.sites
         self._table = support_table(boundary, index.sites)
-        self._probe = probe(index, region, boundary.diagonal)
+        self._queries = region_queries(index, region)
+        self._probe = self._queries.probe
         self._near = _neighbours(index.sites, boundary, region)
         self._feet = np.empty((count_of(self._probe.sites), 3))
 
@@ -68,11 +70,11 @@ class ContactFinder:
         told by a query a little way towards the foot: from there the foot, if on the boundary, is
         nearest.
         """
-        radius = float(self._index.nearest(point[None]).distance[0])
+        radius = float(self._queries.nearest(point[None]).distance[0])
         x, y, z = (float(v) for v in point)
         count = close_feet(self._probe, x, y, z, radius + slack, self._feet)
         feet = self._feet[:count].copy()
-        found = self._index.nearest(point + TOWARDS * (feet - point))
+        found = self._queries.nearest(point + TOWARDS * (feet - point))
         size = self._boundary.diagonal
         true = np.abs(found.distance - (1 - TOWARDS) * norm(feet - point)) <= EXACT * size
         # so far off its site can a foot be without being noticed

@@ -72,7 +72,7 @@ def _local(tracer: SeamTracer, ahead: Array, feet: Array) -> tuple[Array, Array]
     """Feet (m, 3) of a point on the boundary near known ones, and their distances (m,)."""
     sites: Ints | None = None
     for _ in range(PASSES):
-        site = tracer.index.nearest(ahead + TOWARDS * (feet - ahead)).site.astype(np.int64)
+        site = tracer.queries.nearest(ahead + TOWARDS * (feet - ahead)).site.astype(np.int64)
         if sites is not None and (site == sites).all():
             return feet, norm(ahead - feet)
         sites = site

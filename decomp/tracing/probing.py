@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from decomp.sites import SiteIndex
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
 from decomp.sites.carrier_kernels import Triple, foot
 from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
-from decomp.sites.occupancy import OccupancyTree, label_at, private
+from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
@@ -47,17 +46,16 @@ class Probe(NamedTuple):
     slack: float
 
 
-def probe(index: SiteIndex, region: int, size: float) -> Probe:
-    """Collect what queries in a region need."""
-    part = index._part(region)
-    return Probe(
-        private(index.occupancy),
-        part.sites.table,
-        part.candidates,
-        part.boxes,
-        region,
-        TOUCH * size,
-    )
+def probe_of(
+    occupancy: OccupancyTree,
+    sites: SiteTable,
+    candidates: CandidateTree,
+    boxes: BoxTree,
+    label: int,
+    size: float,
+) -> Probe:
+    """Put together what queries in a region of a given size need."""
+    return Probe(occupancy, sites, candidates, boxes, label, TOUCH * size)
 
 
 @inlined

@@ -26,7 +26,8 @@ from decomp.tracing.following import (
     settle,
     track,
 )
-from decomp.tracing.probing import APART, INTRUDED, JOINED, TOUCH, TOWARDS, probe
+from decomp.tracing.probing import APART, INTRUDED, JOINED, TOUCH, TOWARDS
+from decomp.tracing.queries import region_queries
 from decomp.tracing.supports import support_table
 from decomp.tracing.walls import Walls, cross
 from decomp.vectors import Array, norm, place
@@ -131,7 +132,8 @@ class SeamTracer:
         self.size = boundary.diagonal
         self.table = support_table(boundary, index.sites)
         self.contacts = ContactFinder(index, boundary, region)
-        self._probe = probe(index, region, self.size)
+        self.queries = region_queries(index, region)
+        self._probe = self.queries.probe
         self._walls = Walls(boundary, index.sites, self.table)
         self._tracks: dict[int, Track] = {}
 
@@ -169,7 +171,7 @@ class SeamTracer:
                 raise GeometryError(f"a seam cannot be followed past {place(last.point)}")
             beyond = self._get(room, count, here.sites)
             if why == INTRUDED:
-                found = self.index.nearest(beyond.point[None])
+                found = self.queries.nearest(beyond.point[None])
                 intruder = int(found.site[0])
                 if found.region[0] != self.region:
                     raise GeometryError(f"a seam leaves the region at {place(last.point)}")
@@ -209,7 +211,7 @@ class SeamTracer:
     def holds(self, state: State) -> bool:
         """Whether a point is truly on the skeleton, with these sites."""
         towards = state.point + TOWARDS * (state.feet - state.point)
-        found = self.index.nearest(np.concatenate([state.point[None], towards]))
+        found = self.queries.nearest(np.concatenate([state.point[None], towards]))
         slack = TOUCH * self.size
         return bool(
             found.region[0] == self.region
@@ -238,7 +240,7 @@ class SeamTracer:
         return None
 
     def _towards(self, point: Array, feet: Array) -> Nearest:
-        return self.index.nearest(point + TOWARDS * (feet - point))
+        return self.queries.nearest(point + TOWARDS * (feet - point))
 
     def _merged(self, state: State) -> bool:
         """Whether two contacts have run together."""

@@ -14,19 +14,26 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites import SiteIndex
+from decomp.sites.occupancy import NOWHERE, on_boundary
 from decomp.tracing.balls import Balls, balls_at
+from decomp.tracing.compiled import scalar
 from decomp.tracing.equidistance import equidistant
-from decomp.tracing.probing import TOWARDS
+from decomp.tracing.probing import TOWARDS, Probe, inside
+from decomp.tracing.queries import RegionQueries, region_queries
 from decomp.tracing.shrinking import OSCULATES, TOUCHES
-from decomp.vectors import Array, Bools, Ints, norm
+from decomp.vectors import Array, Bools, Ints, frame, norm
 
 BISECTIONS = 18
 NEIGHBOURS = 4
 LEAST = 60
 """Samples of the smallest face."""
+TRIES = 6
+WIDER = 0.5
+"""Face samples are looked for in a box wider than the face's edges by this part."""
 MOVED = 0.01
 JUMP = 50.0
 """A far foot jumps if it moves by more than this multiple of the near one's way."""
+INWARD = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +49,16 @@ class Seeds:
     feet: Array
 
 
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """Boundary points (k, 3) with the carriers (k,) that hold them and the signs (k,) by which the
+    carriers' normals point inwards."""
+
+    points: Array
+    carriers: Ints
+    signs: Array
+
+
 def seam_seeds(
     index: SiteIndex, boundary: RegionBoundary, region: int, samples: int, seed: int
 ) -> Seeds:
@@ -51,123 +68,160 @@ def seam_seeds(
         index: nearest-site queries of the model.
         boundary: of the region.
         region: its index.
-        samples: boundary points to start from.
+        samples: boundary points to start from; small faces get more than their share.
         seed: of the random numbers that place them.
     """
+    queries = region_queries(index, region)
     rng = np.random.default_rng(seed)
     share = sum(face.area for face in boundary.faces)
-    pairs = []
+    scatter, carriers = [], []
     for number, face in enumerate(boundary.faces):
         count = max(LEAST, int(samples * face.area / share))
-        first, second = _pairs(index, boundary, region, number, count, rng)
-        pairs.append((np.full(len(first), number), first, second))
-    faces = np.concatenate([p[0] for p in pairs])
-    return _between(
-        index,
-        boundary,
-        region,
-        faces,
-        np.concatenate([p[1] for p in pairs]),
-        np.concatenate([p[2] for p in pairs]),
-    )
+        scatter.append(_scattered(boundary, number, count, rng))
+        carriers.append(np.full(len(scatter[-1]), face.carrier))
+    points, which = np.concatenate(scatter), np.concatenate(carriers)
+    signs = _inward_signs(boundary, queries.probe, points, which)
+    kept = signs != 0
+    found = _Samples(points[kept], which[kept], signs[kept])
+    first, second = _pairs(found)
+    return _between(index, boundary, queries, found, first, second)
 
 
-def _pairs(
-    index: SiteIndex,
-    boundary: RegionBoundary,
-    region: int,
-    number: int,
-    count: int,
-    rng: np.random.Generator,
-) -> tuple[Array, Array]:
-    """Pairs of neighbouring points of a face (k, 3)."""
+def _scattered(
+    boundary: RegionBoundary, number: int, count: int, rng: np.random.Generator
+) -> Array:
+    """About `count` points of a face, with others of its carrier."""
     face = boundary.faces[number]
     carrier = boundary.carriers[face.carrier]
-    bounds = _face_box(boundary, number)
-    points = np.empty((0, 3))
-    for _ in range(20):
-        scatter = bounds[0] + rng.random((4 * count, 3)) * (bounds[1] - bounds[0])
-        candidates = carrier.project(scatter)
-        points = np.concatenate(
-            [points, candidates[_on(index, boundary, region, number, candidates)]]
-        )
-        if len(points) >= count:
-            break
-    points = points[:count]
-    if len(points) < 2:
-        return np.empty((0, 3)), np.empty((0, 3))
-    _, near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, len(points)))
-    one = np.repeat(np.arange(len(points)), near.shape[1] - 1)
-    other = near[:, 1:].ravel()
-    ordered = np.unique(np.sort(np.stack([one, other], axis=1), axis=1), axis=0)
-    return points[ordered[:, 0]], points[ordered[:, 1]]
+    edges = [boundary.edges[e].samples for loop in face.loops for e, _ in loop]
+    around = np.concatenate([*edges, face.point[None]])
+    if carrier.kind == "plane":
+        x, y = frame(carrier.normal(face.point))
+        flat = np.stack([around @ x, around @ y], axis=1)
+        _, _, turn = np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)
+        flat = flat @ turn.T
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        spot = (low + rng.random((2 * count, 2)) * (high - low)) @ turn
+        height = float(face.point @ carrier.normal(face.point))
+        return np.asarray(spot[:, :1] * x + spot[:, 1:] * y + height * carrier.normal(face.point))
+    low, high = around.min(axis=0), around.max(axis=0)
+    wider = WIDER * (high - low)
+    near = low - wider + rng.random((2 * count, 3)) * (high - low + 2 * wider)
+    box = boundary.bounds
+    far = box[0] + rng.random((2 * count, 3)) * (box[1] - box[0])
+    return carrier.project(np.concatenate([near, far]) if edges else far)
+
+
+def _inward_signs(boundary: RegionBoundary, probe: Probe, points: Array, carriers: Ints) -> Array:
+    """The sign by which a carrier's normal points into the region, 0 off its boundary."""
+    normals = np.empty_like(points)
+    for k in np.unique(carriers):
+        rows = carriers == k
+        normals[rows] = boundary.carriers[k].normal(points[rows])
+    signs = np.zeros(len(points))
+    sides(probe, points, normals, carriers.astype(np.int64), INWARD * boundary.diagonal, signs)
+    return signs
+
+
+@scalar
+def sides(
+    probe: Probe, points: Array, normals: Array, carriers: Ints, step: float, signs: Array
+) -> None:
+    """Fill in on which side of its carrier the region lies, 0 for points off its boundary."""
+    for i in range(len(points)):
+        x, y, z = points[i, 0], points[i, 1], points[i, 2]
+        if on_boundary(probe.occupancy, probe.label, carriers[i], x, y, z) == NOWHERE:
+            continue
+        for side in range(2):
+            s = step if side == 0 else -step
+            if inside(probe, x + s * normals[i, 0], y + s * normals[i, 1], z + s * normals[i, 2]):
+                signs[i] = 1.0 if side == 0 else -1.0
+                break
+
+
+def _pairs(samples: _Samples) -> tuple[Ints, Ints]:
+    """Pairs (k,), (k,) of neighbours on the same side of the same carrier."""
+    found = []
+    for carrier in np.unique(samples.carriers):
+        for sign in (1.0, -1.0):
+            rows = np.flatnonzero((samples.carriers == carrier) & (samples.signs == sign))
+            if len(rows) < 2:
+                continue
+            points = samples.points[rows]
+            _, near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, len(points)))
+            one = np.repeat(np.arange(len(points)), near.shape[1] - 1)
+            both = np.sort(np.stack([one, near[:, 1:].ravel()], axis=1), axis=1)
+            found.append(rows[np.unique(both, axis=0)])
+    pairs = np.concatenate([*found, np.empty((0, 2), dtype=np.int64)]).astype(np.int64)
+    return pairs[:, 0], pairs[:, 1]
 
 
 def _between(
     index: SiteIndex,
     boundary: RegionBoundary,
-    region: int,
-    faces: Ints,
-    first: Array,
-    second: Array,
+    queries: RegionQueries,
+    samples: _Samples,
+    one: Ints,
+    other: Ints,
 ) -> Seeds:
-    def normals(which: Ints, points: Array) -> Array:
+    """Narrow down where the far foot jumps between samples, by bisection."""
+    size = boundary.diagonal
+
+    def normals(carriers: Ints, signs: Array, points: Array) -> Array:
         result = np.empty_like(points)
-        for number in np.unique(which):
-            face = boundary.faces[number]
-            rows = which == number
-            result[rows] = -face.outward * boundary.carriers[face.carrier].normal(points[rows])
+        for k in np.unique(carriers):
+            rows = carriers == k
+            result[rows] = boundary.carriers[k].normal(points[rows])
+        return np.asarray(signs[:, None] * result)
+
+    def project(carriers: Ints, points: Array) -> Array:
+        result = np.empty_like(points)
+        for k in np.unique(carriers):
+            rows = carriers == k
+            result[rows] = boundary.carriers[k].project(points[rows])
         return result
 
-    def project(which: Ints, points: Array) -> Array:
-        result = np.empty_like(points)
-        for number in np.unique(which):
-            rows = which == number
-            result[rows] = boundary.carriers[boundary.faces[number].carrier].project(points[rows])
-        return result
-
-    def balls(which: Ints, points: Array) -> Balls:
-        found, state = balls_at(index, boundary, region, points, normals(which, points))
-        # a point between two of a face can be off it
+    def balls(carriers: Ints, signs: Array, points: Array) -> Balls:
+        found, state = balls_at(queries, points, normals(carriers, signs, points), size)
         found.site[(state != TOUCHES) & (state != OSCULATES)] = -1
         return found
 
-    size = boundary.diagonal
-    both, place = np.unique(np.concatenate([first, second]), axis=0, return_inverse=True)
-    there = np.zeros(len(both), dtype=np.int64)
-    there[place] = np.concatenate([faces, faces])
-    every = balls(there, both)
-    low, high = _rows(every, place[: len(first)]), _rows(every, place[len(first) :])
+    every = balls(samples.carriers, samples.signs, samples.points)
+    low, high = _rows(every, one), _rows(every, other)
+    first, second = samples.points[one], samples.points[other]
+    carriers, signs = samples.carriers[one], samples.signs[one]
     keep = _differ(low, high, first, second)
-    first, second, faces = first[keep], second[keep], faces[keep]
-    low, high = _rows(low, keep), _rows(high, keep)
-    for _ in range(BISECTIONS):
-        if not len(first):
+    for step in range(BISECTIONS + 1):
+        first, second, carriers, signs = first[keep], second[keep], carriers[keep], signs[keep]
+        low, high = _rows(low, keep), _rows(high, keep)
+        if step == BISECTIONS or not len(first):
             break
-        middle = project(faces, (first + second) / 2)
-        new = balls(faces, middle)
+        middle = project(carriers, (first + second) / 2)
+        # between two points of a face one can be off it
+        off = _inward_signs(boundary, queries.probe, middle, carriers) != signs
+        new = balls(carriers, signs, middle)
+        new.site[off] = -1
         # the half in which the far foot moves more
-        to_low, to_high = norm(new.foot - low.foot), norm(new.foot - high.foot)
-        upper = to_low <= to_high
+        upper = norm(new.foot - low.foot) <= norm(new.foot - high.foot)
         first = np.where(upper[:, None], middle, first)
         second = np.where(upper[:, None], second, middle)
         low, high = _chosen(upper, new, low), _chosen(upper, high, new)
         keep = _differ(low, high, first, second)
-        first, second, faces = first[keep], second[keep], faces[keep]
-        low, high = _rows(low, keep), _rows(high, keep)
-    if not len(first):
-        return Seeds(np.empty((0, 3)), np.empty((0, 3, 3)))
     near = norm(low.centre - high.centre) <= 1e-3 * np.minimum(low.radius, high.radius)
     near &= norm(low.foot - high.foot) > JUMP * norm(first - second)
     near &= low.radius > 1e-6 * size
     feet = np.stack([first, low.foot, high.foot], axis=1)[near]
-    return _exact(index, boundary, low.centre[near], feet)
+    return _exact(index, boundary, queries, low.centre[near], feet)
 
 
-def _exact(index: SiteIndex, boundary: RegionBoundary, points: Array, feet: Array) -> Seeds:
-    """Seeds put onto the seams of their sites."""
+def _exact(
+    index: SiteIndex, boundary: RegionBoundary, queries: RegionQueries, points: Array, feet: Array
+) -> Seeds:
+    """Seeds put onto the seams of their sites; those without are left out."""
     towards = points[:, None] + TOWARDS * (feet - points[:, None])
-    which = index.nearest(towards.reshape(-1, 3)).site.reshape(-1, 3).astype(np.int64)
+    which = queries.nearest(towards.reshape(-1, 3)).site.reshape(-1, 3).astype(np.int64)
+    inner = np.flatnonzero((which >= 0).all(axis=1))
+    points, feet, which = points[inner], feet[inner], which[inner]
     found = equidistant(boundary, index.sites, which, points, feet)
     good = found.converged & (norm(found.points - points) <= MOVED * found.radius)
     return Seeds(
@@ -197,28 +251,3 @@ def _chosen(first: Bools, a: Balls, b: Balls) -> Balls:
         np.where(first, a.site, b.site),
         np.where(first[:, None], a.foot, b.foot),
     )
-
-
-def _on(
-    index: SiteIndex, boundary: RegionBoundary, region: int, number: int, points: Array
-) -> Bools:
-    """Whether points on a face's carrier are in the face: from a little inside it is nearest."""
-    face = boundary.faces[number]
-    inward = -face.outward * boundary.carriers[face.carrier].normal(points)
-    step = 1e-6 * boundary.diagonal
-    found = index.nearest(points + step * inward)
-    names = np.array([s.index if s.kind.value == "face" else -1 for s in index.sites])
-    return np.asarray(
-        (found.region == region)
-        & (names[found.site] == number)
-        & (np.abs(found.distance - step) <= 1e-3 * step)
-    )
-
-
-def _face_box(boundary: RegionBoundary, number: int) -> Array:
-    """A box around a face's edges, or the region's if it has none or bulges."""
-    face = boundary.faces[number]
-    if boundary.carriers[face.carrier].kind != "plane":
-        return boundary.bounds
-    points = np.concatenate([boundary.edges[e].samples for loop in face.loops for e, _ in loop])
-    return np.array([points.min(axis=0), points.max(axis=0)])
