@@ -167,7 +167,7 @@ def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) ->
 
 def _loop_reached(walker: Walker, point: Array) -> int | None:
     """A loop of the face that holds a point."""
-    ray = walker.upward(point)
+    ray = walker.upward(walker.clear_of_vertices(point))
     rays = walker.around_torus(point) if ray is None else [ray]
     for candidate in rays:
         loop = walker.first_loop(candidate, from_edge=False)

@@ -26,6 +26,9 @@ from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
 
+CLEAR = 1e-4
+"""How far, in units of the reach, rays keep away from vertices where they can."""
+
 
 @dataclass(frozen=True, eq=False)
 class Walker:
@@ -117,6 +120,65 @@ class Walker:
                 side = y / length if length > 1e-12 else perpendicular(x)
                 return Circle(carrier.centre, x, side, carrier.radius)
         return None
+
+    def clear_of_vertices(self, point: Array) -> Array:
+        """A point of the same face whose ray upward passes no vertex closely.
+
+        Through a vertex in which two faces of the carrier touch, a ray leads from one to the other.
+        """
+        fractions = (0.0, 0.5, 0.3, 0.7, 0.4, 0.6)
+        best, clearest = point, -1.0
+        for fraction in fractions:
+            moved = point if fraction == 0.0 else self._sideways(point, fraction)
+            ray = self.upward(moved)
+            if ray is None:
+                return point
+            gap = self._vertex_gap(ray)
+            if gap > clearest:
+                best, clearest = moved, gap
+            if gap > CLEAR * self.reach:
+                break
+        return best
+
+    def _sideways(self, point: Array, fraction: float) -> Array:
+        """A point part of the way to the first carrier met along the isoline through a point."""
+        carrier = self.member.form.carriers[self.loops.carrier]
+        ray = self.upward(point)
+        assert ray is not None
+        along = ray.derivative(np.array(ray.domain[0]))
+        across = cross(carrier.normal(point), along / norm(along))
+        side: Curve
+        match carrier:
+            case Cylinder() | Cone():
+                base = carrier.point if isinstance(carrier, Cylinder) else carrier.apex
+                height, rho, out = axial_split(point, base, carrier.axis)
+                around = cross(carrier.axis, out)
+                side = Circle(base + height * carrier.axis, out, around, float(rho))
+            case Sphere():
+                out = (point - carrier.centre) / carrier.radius
+                side = Circle(carrier.centre, out, across, carrier.radius)
+            case _:
+                side = Line(point, across, domain=(0.0, 4 * self.reach))
+        low, high = side.domain
+        first = min((t for t, _ in self._cuts(side) if t - low > 1e-9 * (high - low)), default=high)
+        return side.point(np.array(low + fraction * (first - low)))
+
+    def _vertex_gap(self, ray: Curve) -> float:
+        """Least distance of the ends of edges from a ray; infinite where there are none."""
+        ends = self._ends
+        if not len(ends):
+            return np.inf
+        if isinstance(ray, Line):
+            away = ends - ray.origin
+            along = np.maximum(away @ ray.direction, 0.0)
+            return float(norm(away - along[:, None] * ray.direction).min())
+        assert isinstance(ray, Circle)
+        return float(np.abs((ends - ray.centre) @ cross(ray.x, ray.y)).min())
+
+    @cached_property
+    def _ends(self) -> Array:
+        ends = [self.edges[e].sampled(2) for e in self.loop_of_edge if self.edges[e].ends]
+        return np.concatenate([np.empty((0, 3)), *ends])
 
     def around_torus(self, point: Array) -> list[Curve]:
         """On a torus: the two circles through `point`, each in both directions."""

@@ -18,6 +18,7 @@ from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve, normal_curves
 from decomp.medial.pieces import CurvePiece, network
 from decomp.medial.reflexive import ReflexivePart, reflexive_parts
+from decomp.medial.relabel import merging_rays, relabelled
 from decomp.medial.rims import rim_pieces
 from decomp.medial.sectors import with_pairs
 from decomp.sites import SiteIndex
@@ -80,12 +81,13 @@ def region_curves(
         *trims,
         *ray_pieces(index, incidence),
         *rim_pieces(index, incidence),
+        *merging_rays(index, incidence),
         *reflexive_pieces(parts),
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
     turns = [run.points[k] for run in runs for k in (0, -1)]
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns)
-    pieces = with_pairs(index, incidence, joined.pieces)
+    pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(
         incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(runs)
     )

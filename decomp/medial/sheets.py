@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.carriers import Sphere
@@ -46,6 +47,8 @@ COARSE = 0.15
 """Triangles whose middles are farther from the sheet than this part of their longest side are
 divided before anything else, so that all are on the right side of the solid."""
 FLAT = 1e-10
+MERGED = 1e-9
+"""Points of a footprint nearer to each other than this part of the size have merged."""
 
 
 class CrossingError(GeometryError):
@@ -151,23 +154,36 @@ class SheetMaker:
         points = self._points[used]
         feet = self._feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
-        flat = self._flat(pair, points)
-        if flat is not None:
-            uv, domain, column = flat, None, 0
-        else:
-            column = self._better(pair, points)
-            domain = self._domain(pair[column], points, feet[:, column], surface)
-            own, other = pair[column], pair[1 - column]
-            domain = unrolled(
-                domain,
-                domain.to_plane(feet[:, column], points),
-                lambda at: self._touches(own, other, *domain.lift(at)),
-            )
-            uv = domain.to_plane(feet[:, column], points)
+        uv, domain, column = self._drawn(pair, points, feet, surface)
         draft = _Draft(pair, used, points, uv, np.searchsorted(used, segments), domain, column)
         self._check_crossings(draft)
         found, keep = self._triangulated(draft, surface)
         return self._parts(draft, surface, found, keep)
+
+    def _drawn(
+        self, pair: tuple[int, int], points: Array, feet: Array, surface: SheetSurface
+    ) -> tuple[Array, Domain | None, int]:
+        """Coordinates of the points, their domain and the site that it belongs to.
+
+        Sheets between edges and vertices are drawn in their plane if they have one; so are those
+        whose feet on both sites merge, for there the footprint has too little room.
+        """
+        flat = self._flat(pair, points)
+        faces = [self._incidence.sites[site].kind is SiteKind.FACE for site in pair]
+        if flat is not None and not any(faces):
+            return flat, None, 0
+        column = self._better(pair, points)
+        own, other = pair[column], pair[1 - column]
+        domain = self._domain(own, points, feet[:, column], surface)
+        domain = unrolled(
+            domain,
+            domain.to_plane(feet[:, column], points),
+            lambda at: self._touches(own, other, *domain.lift(at)),
+        )
+        uv = domain.to_plane(feet[:, column], points)
+        if flat is not None and len(cKDTree(uv).query_pairs(MERGED * self._size)):
+            return flat, None, 0
+        return uv, domain, column
 
     def _check_crossings(self, draft: _Draft) -> None:
         bad = crossings(draft.uv, draft.segments, draft.period)
@@ -271,9 +287,7 @@ class SheetMaker:
         return feet
 
     def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
-        """Plane coordinates of points that all lie in a plane, if neither site is a face."""
-        if any(self._incidence.sites[site].kind is SiteKind.FACE for site in pair):
-            return None
+        """Plane coordinates of points that all lie in a plane."""
         middle = points.mean(axis=0)
         _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
         if spread[-1] > FLAT * self._size * np.sqrt(len(points)):
