@@ -119,5 +119,8 @@ def shrink(
             if met:
                 feet[i, 0], feet[i, 1], feet[i, 2] = hx, hy, hz
                 chord, candidates[i] = square, k
-            r = smaller
+                r = smaller
+            else:
+                # a little too large, so that a boundary point stops the ball in the end
+                r = 1.001 * smaller
         radius[i] = r
