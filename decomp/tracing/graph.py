@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -20,11 +21,12 @@ from decomp.sites.site import SiteKind
 from decomp.tracing.departures import departures
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.fields import site_fields
-from decomp.tracing.known_seams import on_seams
+from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay, seam_rays
 from decomp.tracing.seam_graph_model import Node, Piece, Seam, SeamGraph
 from decomp.tracing.seams import SLACK, SeamEnd, SeamTracer, State, Traced
 from decomp.tracing.seeds import Seeds, seam_seeds
+from decomp.tracing.supports import support_table
 from decomp.vectors import Array, Ints, norm, place
 
 __all__ = ["Node", "Piece", "Seam", "SeamGraph", "missed_seams", "seam_graph"]
@@ -32,6 +34,7 @@ __all__ = ["Node", "Piece", "Seam", "SeamGraph", "missed_seams", "seam_graph"]
 ROUNDS = 8
 WELD = 1e-7
 """Nodes nearer than this part of the size are one."""
+CELL = 1e-3
 LEAST_SLOPE = 1e-9
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
@@ -73,7 +76,8 @@ def missed_seams(
     """Points (k, 3) on seams that a graph lacks, as seen from random boundary points."""
     grower = _Grower(index, boundary, region)
     seeds = seam_seeds(index, boundary, region, samples, seed)
-    unknown = grower.unknown(seeds, graph.seams)
+    seams = KnownSeams(support_table(boundary, index.sites), boundary.diagonal, graph.seams)
+    unknown = grower.unknown(seeds, seams)
     return np.array([s.point for s in grower.settled(seeds, unknown)]).reshape(-1, 3)
 
 
@@ -82,10 +86,11 @@ class _Grower:
 
     def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
         self._nodes: list[Node] = []
-        self._seams: dict[int, Seam] = {}
         self._index, self._boundary, self._region = index, boundary, region
         self._size = boundary.diagonal
         self._tracer = SeamTracer(index, boundary, region)
+        self._seams = KnownSeams(self._tracer.table, self._size)
+        self._places: dict[tuple[int, ...], list[int]] = {}
         self._open: list[tuple[int, int]] = []
         self._starts: dict[tuple[int, int], State] = {}
         self._taken: dict[tuple[int, int], int] = {}
@@ -94,7 +99,7 @@ class _Grower:
     @property
     def graph(self) -> SeamGraph:
         """What has been found."""
-        return SeamGraph(tuple(self._nodes), tuple(self._seams.values()))
+        return SeamGraph(tuple(self._nodes), self._seams.seams)
 
     def start_at_vertices(self) -> None:
         """Add every convex vertex that a seam leaves."""
@@ -142,27 +147,25 @@ class _Grower:
                 traced = self._tracer.trace(self._starts[node, ray])
                 number = self._new_number()
                 self._taken[node, ray] = number
-                self._seams[number] = self._between(traced, (node, self._end(traced, number)))
+                seam = self._between(traced, (node, self._end(traced, number)))
+                self._seams.add(number, seam)
 
     def start_at(self, seeds: Seeds) -> int:
         """Trace the seams through seeds that are not known; return how many."""
-        count, left = 0, self.unknown(seeds, tuple(self._seams.values()))
+        count, left = 0, self.unknown(seeds, self._seams)
         while len(left):
-            before = set(self._seams)
+            before = self._count
             for state in self.settled(seeds, left[:1]):
                 self._start_inside(state)
                 count += 1
-            new = [seam for k, seam in self._seams.items() if k not in before]
+            new = [k for k in range(before + 1, self._count + 1) if k in self._seams]
             left = left[1:]
-            left = left[
-                ~on_seams(self._tracer.table, self._size, new, seeds.points[left], seeds.feet[left])
-            ]
+            left = left[~self._seams.hold(seeds.points[left], seeds.feet[left], new)]
         return count
 
-    def unknown(self, seeds: Seeds, seams: Sequence[Seam]) -> Ints:
+    def unknown(self, seeds: Seeds, seams: KnownSeams) -> Ints:
         """Numbers of the seeds that are not on given seams."""
-        known = on_seams(self._tracer.table, self._size, seams, seeds.points, seeds.feet)
-        return np.flatnonzero(~known)
+        return np.flatnonzero(~seams.hold(seeds.points, seeds.feet))
 
     def settled(self, seeds: Seeds, which: Ints) -> list[State]:
         """Exact points of seams near seeds."""
@@ -183,11 +186,11 @@ class _Grower:
         number = self._new_number()
         forward = self._tracer.trace(state)
         if forward.end is SeamEnd.CLOSED:
-            self._seams[number] = _seam(forward, None)
+            self._seams.add(number, _seam(forward, None))
             return
         back = self._tracer.trace(state.turned())
         ends = (self._end(back, number), self._end(forward, number))
-        self._seams[number] = self._between(_joined(back, forward), ends)
+        self._seams.add(number, self._between(_joined(back, forward), ends))
         self.grow()
 
     def _end(self, traced: Traced, number: int) -> int:
@@ -221,9 +224,9 @@ class _Grower:
 
     def _node_at(self, point: Array) -> int:
         """The node at a point, a new one unless it is known."""
-        for number, node in enumerate(self._nodes):
-            if float(norm(node.point - point)) <= WELD * self._size:
-                return number
+        known = self._known_node(point)
+        if known is not None:
+            return known
         touching = self._tracer.contacts.at(point, SLACK * self._size)
         rays, states = [], []
         for ray in seam_rays(touching.gradients):
@@ -237,6 +240,10 @@ class _Grower:
         """Add a node with the first points of its rays."""
         number = len(self._nodes)
         self._nodes.append(node)
+        reach = 2 * WELD * self._size
+        corners = [node.point + reach * np.array(c) for c in product((-1.0, 1.0), repeat=3)]
+        for cell in {_cell(corner, self._size) for corner in corners}:
+            self._places.setdefault(cell, []).append(number)
         for k, state in enumerate(states):
             self._starts[number, k] = state
             self._open.append((number, k))
@@ -246,14 +253,18 @@ class _Grower:
 
     def _cut_at(self, node: Node) -> None:
         """Give up seams that pass a new node: they are traced again, from there."""
-        for number, seam in list(self._seams.items()):
-            if on_seams(
-                self._tracer.table, self._size, [seam], node.point[None], node.feet[None, :0]
-            )[0]:
-                del self._seams[number]
-                for ray in [ray for ray, owner in self._taken.items() if owner == number]:
-                    del self._taken[ray]
-                    self._open.insert(0, ray)
+        for number in self._seams.through(node.point):
+            self._seams.remove(number)
+            for ray in [ray for ray, owner in self._taken.items() if owner == number]:
+                del self._taken[ray]
+                self._open.insert(0, ray)
+
+    def _known_node(self, point: Array) -> int | None:
+        """The node at a point; nodes are kept by the cells of a grid that they are close to."""
+        for number in self._places.get(_cell(point, self._size), []):
+            if float(norm(self._nodes[number].point - point)) <= WELD * self._size:
+                return number
+        return None
 
     def _take(self, number: int, last: State, seam: int) -> None:
         """Mark the ray of a node along which a seam has arrived."""
@@ -312,6 +323,11 @@ class _Grower:
     def _new_number(self) -> int:
         self._count += 1
         return self._count
+
+
+def _cell(point: Array, size: float) -> tuple[int, ...]:
+    """The cell of a grid that holds a point."""
+    return tuple(int(x) for x in np.floor(point / (CELL * size)))
 
 
 def _feet_at(node: Node, feet: Array) -> Array:

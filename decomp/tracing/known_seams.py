@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,47 +16,123 @@ ASIDE = 0.2
 """How far a seam may stand out from its chord, as a part of the chord."""
 NEAR = 1e-5
 """Points nearer to a seam than this part of the size may lie on it."""
+BLOCK = 256
 FEET = 1e-2
 """Feet nearer to each other than this part of the radius may be the same."""
 
 
-def on_seams(
-    table: SupportTable, size: float, seams: Sequence[Seam], points: Array, feet: Array
-) -> Bools:
-    """Whether points (k, 3) with some feet (k, j, 3) lie on one of some seams.
+class KnownSeams:
+    """Seams that can be looked up by the points on them.
 
-    Chords near a point are looked for first; then it is put onto the seam exactly, whose feet there
-    must be among its own.
+    Args:
+        table: supports of their sites.
+        size: of the region.
+        seams: the first ones, by their numbers.
     """
-    known = np.zeros(len(points), dtype=np.bool_)
-    if not len(points) or not seams:
-        return known
-    tasks: dict[int, list[tuple[int, tuple[int, ...], Array]]] = {}
-    for seam in seams:
-        line, at = seam.points, seam.feet
-        if seam.ends is None:
-            line, at = np.concatenate([line, line[:1]]), np.concatenate([at, at[:1]])
-        way = np.diff(line, axis=0)
-        chord = norm(way)
-        room = ASIDE * chord.max() + NEAR * size
-        within = np.all(
-            (points >= line.min(axis=0) - room) & (points <= line.max(axis=0) + room), axis=1
+
+    def __init__(self, table: SupportTable, size: float, seams: Sequence[Seam] = ()) -> None:
+        self._table, self._size = table, size
+        self._seams: dict[int, Seam] = {}
+        self._lines: dict[int, _Line] = {}
+        self._boxes = np.full((64, 6), np.nan)
+        for number, seam in enumerate(seams):
+            self.add(number, seam)
+
+    def __contains__(self, number: int) -> bool:
+        return number in self._seams
+
+    @property
+    def seams(self) -> tuple[Seam, ...]:
+        """All of them."""
+        return tuple(self._seams.values())
+
+    def add(self, number: int, seam: Seam) -> None:
+        """Add a seam under a new number."""
+        self._seams[number] = seam
+        self._lines[number] = line = _line(seam)
+        while number >= len(self._boxes):
+            self._boxes = np.concatenate([self._boxes, np.full_like(self._boxes, np.nan)])
+        room = ASIDE * line.chord.max() + NEAR * self._size
+        self._boxes[number] = (
+            *(line.points.min(axis=0) - room),
+            *(line.points.max(axis=0) + room),
         )
-        for k in np.flatnonzero(within & ~known):
-            along = dot(points[k] - line[:-1], way) / np.maximum(chord**2, 1e-300)
-            along = np.clip(along, 0, 1)
-            gap = norm(points[k] - line[:-1] - along[:, None] * way)
-            close = np.flatnonzero(gap <= ASIDE * chord + NEAR * size)
-            for i in close[np.argsort(gap[close])][:2]:
-                sites = seam.sites[int(i)]
-                spot = at[i] + along[i] * (at[i + 1] - at[i])
-                tasks.setdefault(len(sites), []).append((int(k), sites, spot))
-    for listed in tasks.values():
-        rows: Ints = np.array([k for k, _, _ in listed])
-        which = np.array([sites for _, sites, _ in listed])
-        found = balanced(table, size, which, points[rows], np.array([f for _, _, f in listed]))
-        apart = norm(feet[rows][:, :, None] - found.feet[:, None]).min(axis=2)
-        same = (apart <= FEET * found.radius[:, None] + NEAR * size).all(axis=1)
-        same &= found.converged & (norm(found.points - points[rows]) <= NEAR * size)
-        known[rows[same]] = True
-    return known
+
+    def remove(self, number: int) -> None:
+        """Forget a seam."""
+        del self._seams[number], self._lines[number]
+        self._boxes[number] = np.nan
+
+    def through(self, point: Array) -> list[int]:
+        """The numbers of the seams that pass a point (3,)."""
+        near = np.flatnonzero(_within(self._boxes, point))
+        none = np.empty((1, 0, 3))
+        return [int(k) for k in near if self._on([int(k)], point[None], none)[0]]
+
+    def hold(self, points: Array, feet: Array, among: Sequence[int] | None = None) -> Bools:
+        """Whether points (k, 3) with some feet (k, j, 3) lie on a seam (with a given number)."""
+        numbers = np.array(list(self._seams) if among is None else among, dtype=np.int64)
+        known = np.zeros(len(points), dtype=np.bool_)
+        for start in range(0, len(points), BLOCK):
+            rows = slice(start, start + BLOCK)
+            touched = _within(self._boxes[numbers], points[rows, None]).any(axis=0)
+            near = [int(k) for k in numbers[touched]]
+            known[rows] = self._on(near, points[rows], feet[rows])
+        return known
+
+    def _on(self, numbers: Sequence[int], points: Array, feet: Array) -> Bools:
+        """The same for seams with given numbers.
+
+        Chords near a point are looked for first; then it is put onto the seam exactly, whose feet
+        there must be among its own.
+        """
+        known = np.zeros(len(points), dtype=np.bool_)
+        tasks: dict[int, list[tuple[int, tuple[int, ...], Array]]] = {}
+        for number in numbers:
+            seam, line = self._seams[number], self._lines[number]
+            for k in np.flatnonzero(_within(self._boxes[number], points)):
+                along = dot(points[k] - line.points[:-1], line.way) / line.square
+                along = np.minimum(np.maximum(along, 0.0), 1.0)
+                gap = norm(points[k] - line.points[:-1] - along[:, None] * line.way)
+                close = np.flatnonzero(gap <= ASIDE * line.chord + NEAR * self._size)
+                for i in close[np.argsort(gap[close])][:2]:
+                    sites = seam.sites[int(i)]
+                    spot = line.feet[i] + along[i] * (line.feet[i + 1] - line.feet[i])
+                    tasks.setdefault(len(sites), []).append((int(k), sites, spot))
+        for listed in tasks.values():
+            rows: Ints = np.array([k for k, _, _ in listed])
+            which = np.array([sites for _, sites, _ in listed])
+            spots = np.array([spot for _, _, spot in listed])
+            found = balanced(self._table, self._size, which, points[rows], spots)
+            apart = norm(feet[rows][:, :, None] - found.feet[:, None]).min(axis=2)
+            near = NEAR * self._size
+            same = (apart <= FEET * found.radius[:, None] + near).all(axis=1)
+            same &= found.converged & (norm(found.points - points[rows]) <= near)
+            known[rows[same]] = True
+        return known
+
+
+@dataclass(frozen=True, eq=False)
+class _Line:
+    """The chords of a seam: their ends, feet there, differences, lengths and squares."""
+
+    points: Array
+    feet: Array
+    way: Array
+    chord: Array
+    square: Array
+
+
+def _line(seam: Seam) -> _Line:
+    points, feet = seam.points, seam.feet
+    if seam.ends is None:
+        points, feet = np.concatenate([points, points[:1]]), np.concatenate([feet, feet[:1]])
+    way = np.diff(points, axis=0)
+    square = dot(way, way)
+    return _Line(points, feet, way, np.sqrt(square), np.maximum(square, 1e-300))
+
+
+def _within(boxes: Array, points: Array) -> Bools:
+    """Whether points (..., 3) lie in boxes (..., 6)."""
+    low, high = boxes[..., :3], boxes[..., 3:]
+    return np.asarray(((points >= low) & (points <= high)).all(axis=-1))
