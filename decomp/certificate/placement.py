@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
+from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.certificate.evidence import Evidence, Worst, worst_of
@@ -16,9 +16,11 @@ from decomp.medial.result import Reflexive, Sheet
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.balls import largest_gap
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Ints, cross, dot, norm
+from decomp.vectors import Array, Ints, cross, dot, nearest_rows, norm
 
 BLOCK = 1 << 12
+SEARCH, HALVINGS = 513, 40
+CREPT, MERGED = 1e-14, 1e-6
 
 
 def residual(evidence: Evidence) -> Worst:
@@ -78,6 +80,15 @@ def _sheet_error(evidence: Evidence, sheet: Sheet, vertices: Ints) -> Array:
         _distance(evidence, number, points, _feet(evidence, sheet, number, points, towards))
         for number, towards in zip(sheet.sites, (-normal, normal), strict=True)
     )
+    if sheet.sites[0] == sheet.sites[1]:
+        # where the two feet merge, on the sheet's rim, Newton's method for a foot creeps
+        edge = evidence.boundary.edges[evidence.sites[sheet.sites[0]].index]
+        rough = np.flatnonzero(np.maximum(first, second) > evidence.radius[vertices] + CREPT)
+        nearest = _nearest_of_edge(edge, points[rough])
+        first[rough], second[rough] = (
+            np.where(np.abs(each[rough] - nearest) <= MERGED, nearest, each[rough])
+            for each in (first, second)
+        )
     off = np.abs(np.stack([first, second]) - evidence.radius[vertices]).max(axis=0)
     return np.asarray(np.maximum(off, np.abs(first - second)))
 
@@ -99,6 +110,25 @@ def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards:
     samples = evidence.boundary.edges[site.index].samples
     feet[others] = _nearest_samples(samples, points[others], towards[others])
     return feet
+
+
+def _nearest_of_edge(edge: Edge, points: Array) -> Array:
+    """Least distance (k,) from points to an edge: bisection around its nearest sample."""
+    if not len(points):
+        return np.empty(0)
+    s = np.linspace(edge.start, edge.end, SEARCH)
+    samples = edge.curve.point(edge.curve.wrapped(s))
+    middle = s[nearest_rows(samples, points)]
+    low, high = middle - (s[1] - s[0]), middle + (s[1] - s[0])
+
+    def distance(t: Array) -> Array:
+        return norm(edge.curve.point(edge.curve.wrapped(t)) - points)
+
+    for _ in range(HALVINGS):
+        third = (high - low) / 3
+        left = distance(low + third) <= distance(high - third)
+        low, high = np.where(left, low, low + third), np.where(left, high - third, high)
+    return distance((low + high) / 2)
 
 
 def _nearest_samples(samples: Array, points: Array, towards: Array) -> Array:

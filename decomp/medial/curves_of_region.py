@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
+from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
 from decomp.complex.model import LineKind
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
@@ -141,10 +142,27 @@ def _locus_runs(
         return [LocusRun(number, s, np.repeat(points[:1], len(s), axis=0))]
     way = np.diff(points, axis=0)
     turns = np.flatnonzero((way[1:] * way[:-1]).sum(axis=1) < 0) + 1
+    for k in turns:
+        s[k] = _turn(curve, radius, float(s[k - 1]), float(s[k + 1]), way[k - 1])
+    points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
     bounds = [0, *turns.tolist(), RUN]
     return [
         LocusRun(number, s[a : b + 1], points[a : b + 1]) for a, b in itertools.pairwise(bounds)
     ]
+
+
+def _turn(
+    curve: NormalCurve, radius: Callable[[Array], Array], low: float, high: float, way: Array
+) -> float:
+    """The parameter at which the centres have gone farthest in a direction (3,)."""
+
+    def behind(s: float) -> float:
+        at = np.array([s])
+        centre = curve.feet(at) + radius(at)[:, None] * curve.directions(at)
+        return -float(centre[0] @ way)
+
+    found = minimize_scalar(behind, bounds=(low, high), method="bounded", options={"xatol": 1e-12})
+    return float(found.x)
 
 
 def _trim_piece(

@@ -16,8 +16,8 @@ import numpy as np
 from decomp.boundary.topology import Convexity, Edge
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.medial.incidence import Incidence, angle_between
-from decomp.vectors import Array, cross, dot, nearest_rows
+from decomp.medial.incidence import ANGLE, Incidence, angle_between
+from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,6 +181,8 @@ def _fans(incidence: Incidence, number: int, site: int) -> list[NormalCurve]:
         angle = float(angle_between(a, b, axis))
         if angle < 0:
             axis, angle = -axis, -angle
+        if angle <= ANGLE:
+            continue
         fan = VertexNormals(
             0.0, angle, False, (site, incidence.edge_site[k]), vertex.point, a, cross(axis, a)
         )
@@ -202,9 +204,16 @@ def reflex_rays(incidence: Incidence) -> list[tuple[int, int, Array]]:
                 if face in boundary.edges[e].faces
                 and boundary.edges[e].convexity is Convexity.REENTRANT
             ]
-            if len(edges) == 2 and _reflex(incidence, number, face, edges):
+            sharp = all(_bent(incidence, e, vertex.point) for e in edges)
+            if len(edges) == 2 and sharp and _reflex(incidence, number, face, edges):
                 found.append((number, face, incidence.inward(face, vertex.point[None])[0]))
     return found
+
+
+def _bent(incidence: Incidence, edge: int, point: Array) -> bool:
+    """Whether an edge's faces have different normals at a point."""
+    one, two = (incidence.inward(f, point[None])[0] for f in incidence.boundary.edges[edge].faces)
+    return float(norm(one - two)) > ANGLE
 
 
 def _reflex(incidence: Incidence, vertex: int, face: int, edges: list[int]) -> bool:

@@ -12,6 +12,7 @@ over all directions d between the normals of the edge's faces, with K the edge's
 from __future__ import annotations
 
 import numpy as np
+from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.complex.model import LineKind
@@ -20,16 +21,19 @@ from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.curve_elements import RayCurve
 from decomp.medial.incidence import Incidence, angle_between
+from decomp.medial.normal_curves import VertexRay
 from decomp.medial.pieces import CurvePiece
+from decomp.medial.trims import solve_radius
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, cross, dot, norm, place
 
 ALONG = 256
 ACROSS = 32
-OFFSETS = (0.03, 0.015)
+OFFSETS = (0.08, 0.04)
 """How far from a point of symmetry, in parts of the edge, its two sides are compared."""
-SAME = 1e-5
+SAME = 1e-6
 
 
 def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
@@ -60,9 +64,7 @@ class _Edge:
         """Rims at all points of symmetry at which there is one."""
         found = []
         for t in self._symmetric():
-            piece = self._rim(t)
-            if piece is not None:
-                found.append(piece)
+            found.extend(self._rims_at(t))
         return found
 
     def _directions(self, t: Array, share: float | Array) -> Array:
@@ -119,10 +121,10 @@ class _Edge:
         centres = []
         for offset in OFFSETS:
             t = np.array([near - offset * self._span])
-            step = self._partner(t, share)
-            if not np.isfinite(step[0]) or step[0] <= 0:
+            partner = self._exact_partner(t, share)
+            if partner is None:
                 continue
-            a, b = self._edge.curve.point(t)[0], self._edge.curve.point(t + step)[0]
+            a, b = self._edge.curve.point(t)[0], partner
             middle, across = (a + b) / 2, (b - a) / float(norm(b - a))
             at = near
             for _ in range(30):
@@ -142,34 +144,79 @@ class _Edge:
             )
         return centres[1]
 
-    def _rim(self, t0: float) -> CurvePiece | None:
+    def _exact_partner(self, t: Array, share: float) -> Array | None:
+        """The second foot (3,) of the ball over a parameter (1,), if it is ahead on the edge."""
+        step = self._partner(t, share)
+        if not np.isfinite(step[0]) or step[0] <= 0:
+            return None
+        q, way = self._edge.curve.point(t)[0], self._directions(t, share)[0]
+        foot = self._edge.curve.point(self._edge.curve.wrapped(t + step))
+        chord = foot[0] - q
+        radius = float(chord @ chord) / (2 * float(chord @ way))
+        ray = VertexRay(0.0, radius, False, (self._site, self._site), q, way)
+        zero = np.zeros(1)
+        guess = np.array([radius])
+        exact = solve_radius(self._incidence, ray, self._site, zero, foot, guess)
+        it = self._incidence
+        which = np.array([self._site])
+        centre = q + exact[:, None] * way
+        return np.asarray(site_fields(it.boundary, it.sites, which, centre, foot).foot[0])
+
+    def _rims_at(self, t0: float) -> list[CurvePiece]:
+        """The parts of the line of centres of curvature over t0 that are in the skeleton."""
         share = np.linspace(0, 1, ACROSS + 1)
+        q, ways, curved = self._centres(t0, share)
+        balls = inscribed_balls(self._index, self._boundary, self._incidence.region, q, ways)
+        # a ball that osculates the edge comes to rest a little late, but never early
+        on = balls.radius >= curved - SAME * self._size
+        found = []
+        padded = np.concatenate([[False], on, [False]])
+        for first, last in zip(
+            np.flatnonzero(padded[1:] & ~padded[:-1]),
+            np.flatnonzero(padded[:-1] & ~padded[1:]) - 1,
+            strict=True,
+        ):
+            ends = []
+            for k, beyond in ((first, first - 1), (last, last + 1)):
+                if 0 <= beyond <= ACROSS:
+                    foot = balls.foot[beyond]
+                    other = int(balls.site[beyond])
+                    ends.append(self._met(t0, float(share[k]), float(share[beyond]), other, foot))
+                else:
+                    ends.append(float(share[k]))
+            if ends[1] - ends[0] > 1e-9:
+                found.append(self._piece(t0, np.linspace(ends[0], ends[1], ACROSS + 1)))
+        return found
+
+    def _centres(self, t0: float, share: Array) -> tuple[Array, Array, Array]:
+        """The edge's point over t0, directions across it, and radii of curvature in them."""
         t = np.full(len(share), t0)
         q, ways = self._edge.curve.point(t), self._directions(t, share)
         bend = ways @ self._curvature(q[0])
         curved = np.where(bend > 1e-12 / self._size, 1 / np.where(bend > 0, bend, 1.0), np.inf)
-        balls = inscribed_balls(self._index, self._boundary, self._incidence.region, q, ways)
-        on = np.abs(balls.radius - curved) <= SAME * self._size
-        if not on.any():
-            return None
-        rows = np.flatnonzero(on)
-        if len(rows) != rows[-1] - rows[0] + 1 or rows[0] != 0 or rows[-1] != ACROSS:
-            name = self._incidence.sites[self._site].name
-            raise GeometryError(
-                f"the sheet of the edge {name} with itself ends at a third site beside "
-                f"{place(q[0])}; such sheets are not supported"
-            )
+        return q, ways, curved
+
+    def _met(self, t0: float, inside: float, outside: float, other: int, foot: Array) -> float:
+        """The direction in which a third site is as near as the edge."""
+        it = self._incidence
+
+        def gap(share: float) -> float:
+            q, ways, curved = self._centres(t0, np.array([share]))
+            centre = q + curved[:, None] * ways
+            which = np.array([other])
+            field = site_fields(it.boundary, it.sites, which, centre, foot[None])
+            return float(field.distance[0] - curved[0])
+
+        return float(brentq(gap, inside, outside, xtol=1e-15))
+
+    def _piece(self, t0: float, share: Array) -> CurvePiece:
+        q, ways, curved = self._centres(t0, share)
         points = q + curved[:, None] * ways
         along = points[-1] - points[0]
         line = RayCurve(points[0], along / float(norm(along)))
-        feet = q[:1]
+        pair = (self._site, self._site)
         return CurvePiece(
-            LineKind.RIM,
-            ((self._site,),),
-            line,
-            line.place(points),
-            feet,
-            pairs=((self._site, self._site),),
+            LineKind.RIM, ((self._site,),), line, line.place(points), q[:1], pairs=(pair,)
         )
 
     def _curvature(self, point: Array) -> Array:

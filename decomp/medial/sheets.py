@@ -39,6 +39,9 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 TESTS = 7
 """Triangles of each component at which it is asked what it is."""
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
+UNCLEAR = 0.1
+"""A component with votes of more weight than this on either side is neither sheet nor none. Votes
+count by inradius: a sliver beside a border can lie on its wrong side."""
 OFF = 1e-6
 ROUNDS = 12
 FILL = 6
@@ -371,29 +374,28 @@ class SheetMaker:
     ) -> list[int]:
         """Numbers of the components that are sheets."""
         points, domain, column = draft.points, draft.domain, draft.column
+        weights, inradius = _incentres(found.corners)
         rows, owner = [], []
         for number in range(found.components):
             members = np.flatnonzero(found.component == number)
-            corners = points[found.triangles[members]]
-            area = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-            chosen = members[np.argsort(-area)[:TESTS]]
+            chosen = members[np.argsort(-inradius[members])[:TESTS]]
             rows.extend(chosen.tolist())
             owner.extend([number] * len(chosen))
         if not rows:
             return []
+        where = np.einsum("ij,ijk->ik", weights[rows], points[found.triangles[rows]])
         if domain is None:
-            yes = self._in_skeleton(pair, points[found.triangles[rows]].mean(axis=1), surface)
+            yes = self._in_skeleton(pair, where, surface)
         else:
-            feet, inward = domain.lift(found.centroids[rows])
+            feet, inward = domain.lift(np.einsum("ij,ijk->ik", weights[rows], found.corners[rows]))
             yes = self._touches(pair[column], pair[1 - column], feet, inward)
         owners = np.array(owner)
         kept = []
         for number in range(found.components):
-            votes = yes[owners == number]
-            share = float(votes.mean())
-            if 0.0 < share < 1.0:
-                where = points[found.triangles[rows]].mean(axis=1)[owners == number]
-                odd = where[votes != (share > 0.5)][0]
+            own = owners == number
+            share = float(np.average(yes[own], weights=inradius[rows][own]))
+            if UNCLEAR < share < 1 - UNCLEAR:
+                odd = where[own][yes[own] != (share > 0.5)][0]
                 names = " and ".join(self._incidence.sites[s].name for s in pair)
                 raise GeometryError(f"the sheet between {names} has no clear end near {place(odd)}")
             if share > 0.5:
@@ -431,3 +433,12 @@ def segments_of(lines: Sequence[Ints]) -> Ints:
         return np.empty((0, 2), dtype=np.int64)
     both = np.sort(np.concatenate(parts), axis=1)
     return np.unique(both, axis=0)
+
+
+def _incentres(corners: Array) -> tuple[Array, Array]:
+    """Barycentric coordinates (m, 3) of the incentres of plane triangles, and inradii (m,)."""
+    a, b, c = (corners[:, k] for k in range(3))
+    sides = np.stack([norm(b - c), norm(c - a), norm(a - b)], axis=1)
+    perimeter = sides.sum(axis=1)
+    doubled = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    return sides / perimeter[:, None], doubled / perimeter

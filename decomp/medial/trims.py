@@ -16,10 +16,12 @@ import numpy as np
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve
+from decomp.medial.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
+from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Ints, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, dot, norm, place
 
 SAMPLES = 96
 NEAREST_END = 1e-5
@@ -28,6 +30,8 @@ NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
 STEPS = 40
+LOCUS = 1e-8
+"""Centres nearer to a reflexive locus than this part of the size lie on it."""
 
 Contact = tuple[int, ...]
 
@@ -134,10 +138,11 @@ class TrimScanner:
         )
         hits = np.array(balls.foot)
         hits[known] = field.foot
+        own = on_locus(incidence, curve.sites, balls.centre)
         result = []
         for k in range(len(s)):
             far: Contact
-            if balls.site[k] < 0 or float(norm(hits[k] - feet[k])) <= 1e-7 * self._size:
+            if own[k] or balls.site[k] < 0 or float(norm(hits[k] - feet[k])) <= 1e-7 * self._size:
                 far = tuple(sorted(curve.sites))
             else:
                 away = (balls.centre[k] - hits[k]) / float(norm(balls.centre[k] - hits[k]))
@@ -172,7 +177,9 @@ class TrimScanner:
 
     def _change(self, curve: NormalCurve, low: _Sample, high: _Sample) -> float:
         """The exact parameter at which the far contact changes from `low` to `high`."""
-        if float(norm(low.foot - high.foot)) > 1e-5 * self._size:
+        own = tuple(sorted(curve.sites))
+        jumps = float(norm(low.foot - high.foot)) > 1e-5 * self._size
+        if jumps and own not in (low.far, high.far):
             return self._crossing(curve, low, high)
         return (low.s + high.s) / 2
 
@@ -193,6 +200,19 @@ class TrimScanner:
         which = np.full(len(points), site, dtype=np.int64)
         it = self._incidence
         return site_fields(it.boundary, it.sites, which, points, feet).distance
+
+
+def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools:
+    """Whether points (k, 3) are centres of curvature of one of some faces' carriers."""
+    result = np.zeros(len(points), dtype=np.bool_)
+    boundary = incidence.boundary
+    for site in sites:
+        it = incidence.sites[site]
+        if it.kind is SiteKind.FACE:
+            face = boundary.faces[it.index]
+            gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
+            result |= gap <= LOCUS * boundary.diagonal
+    return result
 
 
 def solve_radius(
