@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.curves.circle import Circle
@@ -398,17 +399,8 @@ class _Search:
             return float((field.gradient[0] @ (ahead - behind) - (high - low)) / (2 * h))
 
         a, b = u - BESIDE * self._size, u + BESIDE * self._size
-        if gap(a) * gap(b) > 0:
-            # the distances touch: their difference is least, but it does not change its sign
-            gap = change
-        fa, fb = gap(a), gap(b)
-        for _ in range(20):
-            if fa == fb:
-                return u
-            c = b - fb * (b - a) / (fb - fa)
-            if abs(c - u) > 2 * BESIDE * self._size:
-                return u
-            if abs(c - b) <= 1e-16 * (abs(c) + self._size):
-                return c
-            a, fa, b, fb = b, fb, c, gap(c)
-        return b
+        for function in (gap, change):
+            # where the distances only touch their difference is least, its derivative is zero
+            if function(a) * function(b) < 0:
+                return float(brentq(function, a, b, xtol=1e-15 * self._size, rtol=1e-15))
+        return u

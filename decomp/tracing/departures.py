@@ -1,4 +1,4 @@
-"""The seams that truly leave a junction along a facet of the hull of its contact gradients.
+"""The seams that truly leave a point along a facet of the hull of its contact gradients.
 
 To first order all contacts of a facet stay equally near along the facet's normal n. Those of a
 facet with more than three corners can part at second order: then several seams leave in the same
@@ -7,34 +7,44 @@ contacts are nearly affine across n: d_k + g_k.u, with the g_k on a circle. The 
 or more of them are equal and no other is less are the seams; they are the cells of the regular
 subdivision of the facet by the heights d_k, and fill it.
 
-Seen from there a contact's foot may be on any of the sites that share it at p.
+Seen from there a contact's foot may be on any of the sites that share it at p, and on several of
+them: a foot at a vertex can unfold into one on each of two edges.
 """
 
 from __future__ import annotations
 
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from decomp.errors import GeometryError
-from decomp.tracing.contacts import Contacts
+from decomp.tracing.contacts import EXACT, Contacts
 from decomp.tracing.fields import support_fields
 from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
-from decomp.tracing.seams import SeamTracer, State
 from decomp.vectors import Array, Ints, frame, norm, place
 
-AHEAD = (1e-3, 1e-4, 1e-2, 1e-5, 3e-2, 1e-1)
+if TYPE_CHECKING:
+    from decomp.tracing.seams import SeamTracer, State
+
+AHEAD = (1e-2, 1e-3, 1e-4, 1e-5, 3e-2, 1e-1)
 """How far ahead it is looked, as parts of the radius, in this order."""
 APART = 1e-12
 """Heights that differ by less than this part of the size are equal."""
-PASSES = 6
+SAME = 1e-2
+"""Feet nearer than this part of the way ahead are one."""
+NEARER = 0.1
+ASIDE = 0.5
+"""Seams farther aside than this part of the way ahead leave in another direction."""
 
 
 def departures(
     tracer: SeamTracer, point: Array, touching: Contacts, ray: SeamRay
 ) -> list[tuple[tuple[int, ...], State]]:
-    """The seams that leave along a ray: their contacts, in the ray's order, and a first point each.
+    """The seams that leave along a ray: their contacts, in cyclic order, and a first point each.
+
+    A contact whose foot unfolds stands several times.
 
     Raises:
         GeometryError: they cannot be told apart.
@@ -51,34 +61,68 @@ def _at(
 ) -> list[tuple[tuple[int, ...], State]] | None:
     """The same as seen a length h ahead, None if that is not conclusive."""
     ahead = point + h * ray.direction
-    chosen = list(ray.contacts)
-    local = _local(tracer, ahead, touching.feet[chosen])
+    local = _local(tracer, ahead, touching, ray, h)
     if local is None:
         return None
-    feet, distance = local
+    contacts, sites, feet, distance = local
+    unfolds = len(set(contacts.tolist())) < len(contacts)
     gradients = (ahead - feet) / distance[:, None]
     found: list[tuple[tuple[int, ...], State]] = []
     for corners, across in _cells(gradients, distance, ray.direction, APART * tracer.size):
-        if float(norm(across)) > 0.5 * h:
+        chosen = list(corners)
+        if float(norm(across)) > ASIDE * h:
+            if unfolds:
+                continue
             return None
-        state = tracer.settled(ahead + across, feet[list(corners)], ray.direction)
-        if state is None:
+        start = ahead + across
+        state = tracer.state(sites[chosen].tolist(), start, feet[chosen], ray.direction)
+        if state is None or not tracer.holds(state):
+            state = tracer.settled(start, feet[chosen], ray.direction)
+        if state is None or not _holds_before(tracer, point, state, ray):
             return None
-        found.append((tuple(chosen[k] for k in corners), state))
-    return found if sum(len(c) - 2 for c, _ in found) == len(chosen) - 2 else None
+        found.append((tuple(contacts[chosen].tolist()), state))
+    if unfolds:
+        whole = {c for corners, _ in found for c in corners} == set(contacts.tolist())
+    else:
+        whole = sum(len(c) - 2 for c, _ in found) == len(contacts) - 2
+    return found if whole else None
 
 
-def _local(tracer: SeamTracer, ahead: Array, feet: Array) -> tuple[Array, Array] | None:
-    """Feet (m, 3) of a point on the boundary near known ones, and their distances (m,)."""
-    sites: Ints | None = None
-    for _ in range(PASSES):
-        site = tracer.queries.nearest(ahead + TOWARDS * (feet - ahead)).site.astype(np.int64)
-        if sites is not None and (site == sites).all():
-            return feet, norm(ahead - feet)
-        sites = site
-        points = np.repeat(ahead[None], len(feet), axis=0)
-        feet = support_fields(tracer.table, sites, points, feet).foot
-    return None
+def _holds_before(tracer: SeamTracer, point: Array, state: State, ray: SeamRay) -> bool:
+    """Whether a seam has the same sites on the way to its first point."""
+    nearer = point + NEARER * (state.point - point)
+    before = tracer.state(state.sites, nearer, state.feet, ray.direction)
+    return before is not None and tracer.holds(before)
+
+
+def _local(
+    tracer: SeamTracer, ahead: Array, touching: Contacts, ray: SeamRay, h: float
+) -> tuple[Ints, Ints, Array, Array] | None:
+    """The feet of a point on the boundary near those of a ray's contacts.
+
+    Returns:
+        For each foot the contact (m,) that it comes from, its site (m,), the foot (m, 3) and the
+        distance (m,), in cyclic order.
+    """
+    listed = [(c, site) for c in ray.contacts for site in touching.sites[c]]
+    contacts, sites = (np.array(column, dtype=np.int64) for column in zip(*listed, strict=True))
+    points = np.repeat(ahead[None], len(sites), axis=0)
+    feet = support_fields(tracer.table, sites, points, touching.feet[contacts]).foot
+    distance = norm(ahead - feet)
+    found = tracer.queries.nearest(ahead + TOWARDS * (feet - ahead)).distance
+    true = np.abs(found - (1 - TOWARDS) * distance) <= EXACT * tracer.size
+    true &= norm(feet - touching.feet[contacts]) <= 0.5 * touching.radius
+    kept: list[int] = []
+    for k in np.flatnonzero(true):
+        if all(float(norm(feet[k] - feet[j])) > SAME * h for j in kept):
+            kept.append(int(k))
+    if set(contacts[kept].tolist()) != set(ray.contacts):
+        return None
+    x, y = frame(ray.direction)
+    away = feet[kept] - ahead
+    order = np.argsort(np.arctan2(-away @ y, -away @ x))
+    rows = np.array(kept)[order]
+    return contacts[rows], sites[rows], feet[rows], distance[rows]
 
 
 def _cells(

@@ -242,11 +242,11 @@ def follow(
         else:
             length = (low + high) / 2
             if high - low <= CLOSE * size or not low < length < high:
-                if failed:
-                    return last + 1, STUCK, -1
                 base = last
                 if low > 0.0 and advance(table, which, track, base, last + 1, low, size, True):
                     last += 1
+                if failed:
+                    return last + 1, STUCK, -1
                 if not advance(table, which, track, base, last + 1, high, size, True):
                     return last + 1, STUCK, -1
                 return last + 1, kind, contact

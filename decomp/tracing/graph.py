@@ -35,6 +35,7 @@ ROUNDS = 8
 WELD = 1e-7
 """Nodes nearer than this part of the size are one."""
 CELL = 1e-3
+ENDING = 1e-5
 LEAST_SLOPE = 1e-9
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
@@ -94,6 +95,7 @@ class _Grower:
         self._open: list[tuple[int, int]] = []
         self._starts: dict[tuple[int, int], State] = {}
         self._taken: dict[tuple[int, int], int] = {}
+        self._unforeseen: set[int] = set()
         self._count = 0
 
     @property
@@ -206,10 +208,27 @@ class _Grower:
         return node
 
     def _vertex_near(self, last: State) -> int:
+        """The node where a seam's radius vanishes.
+
+        If it is no convex vertex that seams are known to leave, it is another vertex, or a point of
+        an edge where the faces' angle vanishes; its rays are the seams that arrive.
+        """
         for number, node in enumerate(self._nodes):
-            if node.radius == 0 and float(norm(node.point - last.point)) <= 1e-5 * self._size:
+            if node.radius == 0 and float(norm(node.point - last.point)) <= ENDING * self._size:
                 return number
-        raise GeometryError(f"a seam ends on the boundary at {place(last.point)}, not at a vertex")
+        vertices = np.array([v.point for v in self._boundary.vertices]).reshape(-1, 3)
+        gaps = norm(vertices - last.point)
+        if len(gaps) and gaps.min() <= ENDING * self._size:
+            point = vertices[int(np.argmin(gaps))]
+        else:
+            point = last.point + last.radius / -last.slope * last.tangent
+            if not float(norm(point - last.point)) <= ENDING * self._size:
+                raise GeometryError(
+                    f"the end of a seam on the boundary near {place(point)} is lost"
+                )
+        number = self._add(Node(point, 0.0, (), np.empty((0, 3)), ()), [])
+        self._unforeseen.add(number)
+        return number
 
     def _junction(self, last: State, intruder: int, foot: Array) -> int:
         which = np.array([[*last.sites, intruder]])
@@ -271,28 +290,43 @@ class _Grower:
         node = self._nodes[number]
         if node.radius > 0:
             gaps = norm(last.feet[:, None] - node.feet[None])
-            contacts = set(np.argmin(gaps, axis=1).tolist())
-            if len(contacts) < len(last.sites):
-                self._add_fin(number, last, contacts, seam)
-                return
+            contacts = sorted(np.argmin(gaps, axis=1).tolist())
         else:
-            contacts = {k for k, sites in enumerate(node.sites) if set(sites) & set(last.sites)}
+            node = self._with_sites(number, last.sites)
+            contacts = [k for k, sites in enumerate(node.sites) if set(sites) & set(last.sites)]
         fitting = [
             k
             for k, ray in enumerate(node.rays)
             if (number, k) not in self._taken
-            and set(ray.contacts) == contacts
+            and sorted(ray.contacts) == contacts
             and float(ray.direction @ -last.tangent) > 0.9
         ]
+        if not fitting and (len(set(contacts)) < len(contacts) or number in self._unforeseen):
+            self._add_fin(number, last, contacts, seam)
+            return
         if not fitting:
             raise GeometryError(f"a seam arrives at {place(node.point)} where none leaves")
         best = max(fitting, key=lambda k: float(node.rays[k].direction @ -last.tangent))
         self._taken[number, best] = seam
 
-    def _add_fin(self, number: int, last: State, contacts: set[int], seam: int) -> None:
-        """Add a ray for a seam that has arrived with contacts run together, and mark it."""
+    def _with_sites(self, number: int, sites: Sequence[int]) -> Node:
+        """A node on the boundary; one that was not foreseen is given the sites that arrive."""
         node = self._nodes[number]
-        ray = SeamRay(-last.tangent, tuple(sorted(contacts)), -last.slope)
+        known = {site for group in node.sites for site in group}
+        new = [site for site in sites if site not in known]
+        if number in self._unforeseen and new:
+            node = replace(
+                node,
+                sites=(*node.sites, *((site,) for site in new)),
+                feet=np.concatenate([node.feet, np.repeat(node.point[None], len(new), axis=0)]),
+            )
+            self._nodes[number] = node
+        return node
+
+    def _add_fin(self, number: int, last: State, contacts: list[int], seam: int) -> None:
+        """Add a ray for a seam that has arrived where none was foreseen, and mark it."""
+        node = self._nodes[number]
+        ray = SeamRay(-last.tangent, tuple(contacts), -last.slope)
         self._taken[number, len(node.rays)] = seam
         self._starts[number, len(node.rays)] = last.turned()
         self._nodes[number] = replace(node, rays=(*node.rays, ray))

@@ -16,16 +16,19 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import Nearest, SiteIndex
 from decomp.tracing.contacts import ContactFinder
+from decomp.tracing.departures import departures
 from decomp.tracing.following import (
     CLOSED,
     ENDED,
     FULL,
     STUCK,
     Track,
+    advance,
     follow,
     settle,
     track,
 )
+from decomp.tracing.local import seam_rays
 from decomp.tracing.probing import APART, INTRUDED, JOINED, TOUCH, TOWARDS
 from decomp.tracing.queries import region_queries
 from decomp.tracing.supports import support_table
@@ -34,12 +37,14 @@ from decomp.vectors import Array, norm, place
 
 ROOM = 1024
 MOST_RUNS = 1000
-AHEAD = 1e-4
-"""How far ahead, as part of the radius, it is seen whether a seam goes on at a trim."""
 SLACK = 1e-9
 """Contacts whose distances differ by less than this part of the size are looked at as equal."""
-MERGED = 1e-5
-"""Feet nearer than this part of the radius have run together."""
+MERGED = 1e-3
+"""Feet nearer than this part of the radius have run together where a seam stops."""
+MET = 1e-6
+WIDE, NARROW, FITTED = 0.2, 0.1, 8
+"""Gaps of feet, relative to the radius, from which the end is extrapolated; the nearest of the
+points taken, relative to the farthest; their number."""
 FOOT_ON_EDGE = 1e-9
 NEAR_WALL = 1e-3
 """Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
@@ -155,6 +160,10 @@ class SeamTracer:
             )
             steps += count - 1
             last = self._get(room, count - 1, here.sites)
+            if why == STUCK and self._merged(last):
+                kept, at = self._fin(room, count, here.sites)
+                runs.append(self._run(room, kept, here.sites))
+                return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
             if why in (FULL, ENDED, CLOSED, STUCK):
                 runs.append(self._run(room, count, here.sites))
                 if why == FULL:
@@ -164,8 +173,6 @@ class SeamTracer:
                     return Traced(tuple(runs), last, SeamEnd.BOUNDARY, -1, nothing)
                 if why == CLOSED:
                     return Traced(tuple(runs), last, SeamEnd.CLOSED, -1, nothing)
-                if self._merged(last):
-                    return Traced(tuple(runs), last, SeamEnd.FIN, -1, nothing)
                 if len(self.contacts.at(last.point, 1e-7 * self.size).feet) > 3:
                     return Traced(tuple(runs), last, SeamEnd.SPLIT, -1, nothing)
                 raise GeometryError(f"a seam cannot be followed past {place(last.point)}")
@@ -179,20 +186,16 @@ class SeamTracer:
                 if contact < 0:
                     runs.append(self._run(room, count, here.sites))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
-                new = intruder
             elif why == JOINED:
                 kept, at = self._joining(room, count, here.sites)
                 runs.append(self._run(room, kept, here.sites))
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
-            else:
-                new = int(self._towards(beyond.point, beyond.feet[contact : contact + 1]).site[0])
             kept, at = self._crossing(room, count, here.sites, contact)
             runs.append(self._run(room, kept, here.sites))
-            if self._merged(at):
+            if self._merged(at, MET):
                 return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
-            sites = tuple(new if k == contact else s for k, s in enumerate(here.sites))
-            switched = self.state(sites, at.point, at.feet, at.tangent)
-            if switched is None or not self._goes_on(switched):
+            switched = self._onwards(at)
+            if switched is None:
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             here = switched
         raise GeometryError(f"the seam from {place(start.point)} does not end")
@@ -242,22 +245,32 @@ class SeamTracer:
     def _towards(self, point: Array, feet: Array) -> Nearest:
         return self.queries.nearest(point + TOWARDS * (feet - point))
 
-    def _merged(self, state: State) -> bool:
+    def _merged(self, state: State, within: float = MERGED) -> bool:
         """Whether two contacts have run together."""
         m = len(state.feet)
         gaps = norm(state.feet[:, None] - state.feet[None])[np.triu_indices(m, 1)]
-        return bool((gaps <= MERGED * state.radius).any())
+        return bool((gaps <= within * state.radius).any())
 
-    def _goes_on(self, state: State) -> bool:
-        """Whether a seam goes on with all its contacts, and no more, at a trim."""
-        touching = self.contacts.at(state.point, SLACK * self.size)
-        if len(touching.feet) == 3 == len(state.sites):
-            return True
-        if len(touching.feet) != len(state.sites):
-            return False
-        ahead = state.point + AHEAD * state.radius * state.tangent
-        found = self.state(state.sites, ahead, state.feet, state.tangent)
-        return found is not None and self.holds(found)
+    def _onwards(self, at: State) -> State | None:
+        """The same point with the sites of the seam behind it, None if it does not go on alone.
+
+        It does if one seam, with as many contacts, leaves straight on.
+        """
+        touching = self.contacts.at(at.point, SLACK * self.size)
+        rays = seam_rays(touching.gradients)
+        if len(rays) != 2 or len(touching.feet) != len(at.sites):
+            return None
+        ray = max(rays, key=lambda r: float(r.direction @ at.tangent))
+        leaving = departures(self, at.point, touching, ray)
+        if len(leaving) != 1 or len(leaving[0][0]) != len(at.sites):
+            return None
+        ahead = leaving[0][1]
+        # the contacts in the order in which they were
+        order = [int(np.argmin(norm(ahead.feet - foot))) for foot in at.feet]
+        if len(set(order)) != len(order):
+            return None
+        sites = tuple(ahead.sites[k] for k in order)
+        return self.state(sites, at.point, at.feet, at.tangent)
 
     def _neighbour(self, sites: tuple[int, ...], beyond: State, intruder: int, foot: Array) -> int:
         """The contact whose site the intruder continues over an edge, -1 if there is none."""
@@ -305,6 +318,74 @@ class SeamTracer:
         if best is None:
             return count, self._get(room, count - 1, sites)
         return self._cut(room, best[0], best[1]), best[1]
+
+    def _fin(self, room: Track, count: int, sites: tuple[int, ...]) -> tuple[int, State]:
+        """Where two contacts run together, just behind the last of `count` rows.
+
+        Either they meet at a vertex, at a wall of their sites, or in the middle of one site: then
+        the square of the gap between their feet vanishes linearly along the seam, and the point is
+        found by extrapolation to no gap.
+        """
+        last = self._get(room, count - 1, sites)
+        which = np.array(sites, dtype=np.int64)
+        for length in (1e-6, 1e-5):
+            if not advance(
+                self.table, which, room, count - 1, count, length * self.size, self.size, False
+            ):
+                continue
+            for contact in self._pair(last):
+                found = self._wall_near(room, count, sites, sites[contact], last.feet[contact])
+                if found is not None:
+                    base, state, spot = found
+                    return self._cut(room, base, state), state
+        return count, self._extrapolated(room, count, sites)
+
+    def _extrapolated(self, room: Track, count: int, sites: tuple[int, ...]) -> State:
+        """The point of a seam, behind the last of `count` rows, where two feet meet."""
+        last = self._get(room, count - 1, sites)
+        one, other = self._pair(last)
+        m = len(sites)
+        feet = room.feet[: count * m].reshape(count, m, 3)
+        gaps = norm(feet[:, one] - feet[:, other])
+        wide = np.flatnonzero(gaps >= WIDE * last.radius)
+        first = int(wide[-1]) if len(wide) else 0
+        reach = float(norm(room.points[first] - last.point))
+        states = []
+        for part in (1 - np.cos(np.pi * (np.arange(FITTED) + 0.5) / FITTED)) / 2:
+            away = reach * (NARROW + (1 - NARROW) * part)
+            along = norm(room.points[first:count] - last.point)
+            k = first + int(np.argmin(np.abs(along - away)))
+            start = self._get(room, k, sites)
+            shift = (along[k - first] - away) * start.tangent
+            state = self.state(sites, start.point + shift, start.feet, start.tangent)
+            if state is None:
+                return last
+            states.append(state)
+        x = np.array([float(norm(s.feet[one] - s.feet[other])) ** 2 for s in states])
+        # Lagrange weights at gap 0
+        weights = np.array(
+            [
+                np.prod([x[j] / (x[j] - x[i]) for j in range(FITTED) if j != i])
+                for i in range(FITTED)
+            ]
+        )
+
+        def at_end(values: Sequence[Array]) -> Array:
+            return np.asarray(np.tensordot(weights, np.array(values), axes=1))
+
+        middle = at_end([(s.feet[one] + s.feet[other]) / 2 for s in states])
+        spots = at_end([s.feet for s in states])
+        spots[[one, other]] = middle
+        point = at_end([s.point for s in states])
+        if not float(norm(point - last.point)) <= 1e-3 * self.size:
+            return last
+        return replace(last, point=point, feet=spots, radius=float(norm(point - spots[one])))
+
+    def _pair(self, state: State) -> tuple[int, int]:
+        """The two contacts with the nearest feet."""
+        one, other = np.triu_indices(len(state.feet), 1)
+        k = int(np.argmin(norm(state.feet[one] - state.feet[other])))
+        return int(one[k]), int(other[k])
 
     def _wall_near(
         self, room: Track, count: int, sites: tuple[int, ...], site: int, foot: Array

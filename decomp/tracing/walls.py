@@ -21,6 +21,8 @@ from decomp.vectors import Array, Ints
 
 ROUNDS = 80
 ON_WALL = 1e-16
+ALONG = 1e-13
+"""Both ends of a step nearer to a wall than this part of the size: it runs along the wall."""
 NO_ROW = -1
 
 
@@ -156,11 +158,15 @@ def cross(
         Whether it was found.
     """
     good, fl = gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)
-    if not good or abs(fl) <= ON_WALL * size:
-        return good
+    if not good:
+        return False
     good, fh = gap_ahead(table, which, track, here, row, high, spot, edge, carrier, vertex, size)
-    if not good or abs(fh) <= ON_WALL * size:
-        return good
+    if not good or (abs(fl) <= ALONG * size and abs(fh) <= ALONG * size):
+        return False
+    if abs(fh) <= ON_WALL * size:
+        return True
+    if abs(fl) <= ON_WALL * size:
+        return gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)[0]
     if not fl * fh < 0.0:
         return False
     side = 0
