@@ -336,7 +336,7 @@ class SeamTracer:
             for contact in self._pair(last):
                 found = self._wall_near(room, count, sites, sites[contact], last.feet[contact])
                 if found is not None:
-                    base, state, spot = found
+                    base, state, _ = found
                     return self._cut(room, base, state), state
         return count, self._extrapolated(room, count, sites)
 
