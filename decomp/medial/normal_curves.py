@@ -8,6 +8,7 @@ the face along the edge. At a vertex that is a site they are the normals across 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +17,9 @@ import numpy as np
 from decomp.boundary.topology import Convexity, Edge
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
+from decomp.errors import GeometryError
 from decomp.medial.incidence import ANGLE, Incidence, angle_between
+from decomp.tracing.fields import edge_foot
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
 
@@ -42,6 +45,19 @@ class NormalCurve(ABC):
     @abstractmethod
     def directions(self, s: Array) -> Array:
         """Unit directions (k, 3) into the region."""
+
+    @abstractmethod
+    def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
+        """The normals through points (k, 3) close to their ruled surface.
+
+        Args:
+            points: (k, 3).
+            near: feet (k, 3) close to theirs.
+
+        Returns:
+            feet and directions (k, 3), and a function that tells in which direction (k, 3) points
+            at given heights (k,) above the feet move along the curve.
+        """
 
     @abstractmethod
     def parameter(self, points: Array, near: Array | None = None) -> Array:
@@ -75,6 +91,41 @@ class EdgeNormals(NormalCurve):
             middle = np.asarray((self.start + self.end) / 2 if near is None else near)
             t = t + curve.period * np.round((middle - t) / curve.period)
         return np.asarray(t)
+
+    def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
+        boundary = self.incidence.boundary
+        feet = edge_foot(boundary, self.edge, points, near)
+        ways = self.incidence.inward(self.face, feet)
+
+        def change(height: Array) -> Array:
+            a, b = (boundary.carriers[k].normal(feet) for k in self.edge.carriers)
+            if isinstance(self.edge.curve, Line):
+                tangent = np.broadcast_to(self.edge.curve.direction, feet.shape)
+            elif isinstance(self.edge.curve, Circle):
+                axis = cross(self.edge.curve.x, self.edge.curve.y)
+                tangent = cross(axis, feet - self.edge.curve.centre) / self.edge.curve.radius
+            else:
+                tangent = cross(a, b)
+                tangent = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
+                # in the sense of the parameter
+                sense = dot(tangent, self._tangents(feet))
+                tangent = np.where(sense[:, None] < 0, -tangent, tangent)
+            h = 1e-6 * boundary.diagonal
+            ahead = self.incidence.inward(self.face, feet + h * tangent)
+            behind = self.incidence.inward(self.face, feet - h * tangent)
+            turn = (ahead - behind) / (2 * h)
+            along = tangent + height[:, None] * turn
+            flat = norm(along) <= 1e-9
+            along[flat] = turn[flat]
+            return np.asarray(along)
+
+        return feet, ways, change
+
+    def _tangents(self, feet: Array) -> Array:
+        """Directions of the chords of known samples beside feet (k, 3)."""
+        samples, _ = self._samples
+        rows = np.minimum(nearest_rows(samples, feet), len(samples) - 2)
+        return np.asarray(samples[rows + 1] - samples[rows])
 
     def _nearest(self, points: Array) -> Array:
         """Parameters of the samples of the edge that are nearest to points."""
@@ -120,6 +171,11 @@ class VertexNormals(NormalCurve):
         s = np.asarray(s)[..., None]
         return np.asarray(np.cos(s) * self.first + np.sin(s) * self.second)
 
+    def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
+        s = self.parameter(points)
+        feet, ways = self.feet(s), self.directions(s)
+        return feet, ways, lambda height: height[:, None] * self.directions(s + np.pi / 2)
+
     def parameter(self, points: Array, near: Array | None = None) -> Array:
         away = points - self.vertex
         return np.arctan2(away @ self.second, away @ self.first)
@@ -141,6 +197,9 @@ class VertexRay(NormalCurve):
 
     def directions(self, s: Array) -> Array:
         return np.broadcast_to(self.direction, (*np.shape(s), 3)).copy()
+
+    def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
+        raise GeometryError("a single normal is no surface")
 
     def parameter(self, points: Array, near: Array | None = None) -> Array:
         return np.asarray((points - self.vertex) @ self.direction)

@@ -40,34 +40,26 @@ class RuledSurface:
     def __post_init__(self) -> None:
         s = np.tile(self.s, len(RUNGS))
         up = np.concatenate([rung * self.height for rung in RUNGS])
-        points = self.curve.feet(s) + up[:, None] * self.curve.directions(s)
-        object.__setattr__(self, "_known", (cKDTree(points), s))
+        feet = self.curve.feet(s)
+        points = feet + up[:, None] * self.curve.directions(s)
+        object.__setattr__(self, "_known", (cKDTree(points), feet))
 
     def place(self, points: Array) -> Array:
-        """Points (k, 3) moved to the normal through the foot of their parameter."""
-        s = self._parameter(points)
-        feet, ways = self.curve.feet(s), self.curve.directions(s)
+        """Points (k, 3) moved to the normal through their foot."""
+        feet, ways, _ = self.curve.rulings(points, self._near(points))
         return np.asarray(feet + dot(points - feet, ways)[:, None] * ways)
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3): across the ruling and the change along the curve."""
-        s = self._parameter(points)
-        h = 1e-6 * (self.curve.end - self.curve.start)
-        feet, ways = self.curve.feet(s), self.curve.directions(s)
-        height = dot(points - feet, ways)
-        low, high = self.curve.feet(s - h), self.curve.feet(s + h)
-        turn = self.curve.directions(s + h) - self.curve.directions(s - h)
-        along = high - low + height[:, None] * turn
-        # where the surface ends in a point the rulings fan out
-        flat = norm(along) <= 1e-12 * (1 + np.abs(height))
-        along[flat] = turn[flat]
+        feet, ways, change = self.curve.rulings(points, self._near(points))
+        along = change(dot(points - feet, ways))
         across = self.sense * cross(along, ways)
         length = norm(across)
         return np.asarray(across / np.where(length > 0, length, 1.0)[:, None])
 
-    def _parameter(self, points: Array) -> Array:
-        tree, s = self._known
-        return self.curve.parameter(points, s[tree.query(points)[1]])
+    def _near(self, points: Array) -> Array:
+        tree, feet = self._known
+        return np.asarray(feet[tree.query(points)[1]])
 
 
 def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
