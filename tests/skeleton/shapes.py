@@ -1,0 +1,40 @@
+"""Solids for tests of skeletons that the shared table does not have."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from decomp.csg.primitives import Block, Cylinder, InfiniteCylinder
+from decomp.csg.solid import Solid
+
+
+def angle(long: float, thick: float) -> Solid:
+    """An L, 2 high: a foot along x that is 1 thick and a leg along y of its own thickness."""
+    foot = Block((0, 0, 0), (3, 1, 2), name="foot")
+    return foot | Block((0, 0, 0), (thick, long, 2), name="leg")
+
+
+def washer() -> Solid:
+    return Cylinder((0, 0, 0), (0, 0, 1), 5, name="disc") - InfiniteCylinder(
+        (0, 0, 0), (0, 0, 1), 1, name="bore"
+    )
+
+
+def walled() -> Solid:
+    """A block of 4 x 3 x 2 with a wall of 1/1000 of its diagonal beside a slot."""
+    wall = 29**0.5 / 1000
+    slot = Block((wall, 1, -1), (1, 1, 4), name="slot")
+    return Block((0, 0, 0), (4, 3, 2), name="block") - slot
+
+
+SHAPES: dict[str, Callable[[], Solid]] = {
+    "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
+    "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
+    "square cylinder": lambda: Cylinder((0, 0, 0), (0, 0, 2), 1, name="rod"),
+    "disc": lambda: Cylinder((0, 0, 0), (0, 0, 1), 1, name="disc"),
+    "equal angle": lambda: angle(3, 1),
+    "unequal angle": lambda: angle(3, 0.6),
+    "half angle": lambda: angle(3, 0.5),
+    "washer": washer,
+    "walled block": walled,
+}
