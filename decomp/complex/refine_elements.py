@@ -1,12 +1,14 @@
 """The surfaces and curves of a complex, asked for many points at once.
 
 Elements are numbered: first the distinct surfaces, then the distinct curves. Patches that share a
-surface object share its number, so that one call serves them all.
+surface object share its number, so that one call serves them all. Surfaces of one family are asked
+in one call too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -43,6 +45,7 @@ class Elements:
                 self._curves.append(line.curve)
                 self.names.append(f"{line.kind.value} curve")
             of_line.append(curves[id(line.curve)])
+        self._families, self._family = _families(self._surfaces)
         self.of_patch: Ints = np.array(of_patch, dtype=np.int64)
         self.of_line: Ints = np.array(of_line, dtype=np.int64)
 
@@ -52,7 +55,7 @@ class Elements:
         Raises:
             GeometryError: an element gives no finite point; the message says where.
         """
-        moved = self._each(numbers, points, self._place_on)
+        moved = self._each(numbers, points, self._place_on, "place_together")
         self._finite(numbers, points, moved)
         return moved
 
@@ -62,7 +65,7 @@ class Elements:
         Raises:
             GeometryError: a surface gives no finite normal; the message says where.
         """
-        found = self._each(numbers, points, lambda k, p: self._surfaces[k].normal(p))
+        found = self._each(numbers, points, self._normal_of, "normals_together")
         self._finite(numbers, points, found)
         return found
 
@@ -80,17 +83,40 @@ class Elements:
             return self._surfaces[number].place(points)
         return self._curves[number - len(self._surfaces)].place(points)
 
-    def _each(self, numbers: Ints, points: Array, ask: Callable[[int, Array], Array]) -> Array:
-        """Ask each element once for all its points."""
+    def _normal_of(self, number: int, points: Array) -> Array:
+        return self._surfaces[number].normal(points)
+
+    def _each(
+        self, numbers: Ints, points: Array, ask: Callable[[int, Array], Array], together: str
+    ) -> Array:
+        """Ask each family, or else each element, once for all its points."""
         if len(numbers) == 0:
             return np.empty((0, 3))
         if (numbers == numbers[0]).all():
             return ask(int(numbers[0]), points)
         result = np.empty((len(points), 3))
-        order = np.argsort(numbers, kind="stable")
-        for some in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
-            result[some] = ask(int(numbers[some[0]]), points[some])
+        for rows in self._by_family(numbers, points, together, result):
+            order = rows[np.argsort(numbers[rows], kind="stable")]
+            for some in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
+                result[some] = ask(int(numbers[some[0]]), points[some])
         return result
+
+    def _by_family(self, numbers: Ints, points: Array, together: str, result: Array) -> list[Ints]:
+        """Fill in what families know; the rows that are left."""
+        if not self._families:
+            return [np.arange(len(numbers))]
+        known = np.append(self._family, np.full(len(self._curves), -1))
+        family = known[numbers]
+        left = [np.flatnonzero(family < 0)]
+        for k, members in enumerate(self._families):
+            rows = np.flatnonzero(family == k)
+            if len(rows):
+                which = np.searchsorted(members, numbers[rows])
+                surfaces: list[Any] = [self._surfaces[number] for number in members]
+                found, good = getattr(surfaces[0], together)(surfaces, which, points[rows])
+                result[rows] = found
+                left.append(rows[~good])
+        return [rows for rows in left if len(rows)]
 
     def _finite(self, numbers: Ints, points: Array, values: Array) -> None:
         if np.isfinite(values).all():
@@ -99,3 +125,17 @@ class Elements:
         raise GeometryError(
             f"{self.names[int(numbers[first])]} cannot be followed at {place(points[first])}"
         )
+
+
+def _families(surfaces: Sequence[SurfaceElement]) -> tuple[list[list[int]], Ints]:
+    """The numbers of the surfaces in each family, and the family of each surface, -1 for none."""
+    found: dict[int, list[int]] = {}
+    for number, surface in enumerate(surfaces):
+        family = getattr(surface, "family", None)
+        if family is not None:
+            found.setdefault(id(family), []).append(number)
+    families = [members for members in found.values() if len(members) > 1]
+    of_surface = np.full(len(surfaces), -1, dtype=np.int64)
+    for k, members in enumerate(families):
+        of_surface[members] = k
+    return families, of_surface

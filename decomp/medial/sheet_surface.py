@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
@@ -11,6 +13,7 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.fields import site_fields
+from decomp.tracing.supports import CURVE, support_table
 from decomp.vectors import Array, Bools, Ints, norm, place
 
 CLEAR = 1e-9
@@ -32,8 +35,47 @@ class SheetSurface:
     points: Array
     feet: Array
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "_tree", cKDTree(self.points))
+    @property
+    def family(self) -> Incidence | None:
+        """Sheets of one family can be asked for points of all of them at once.
+
+        Those are the sheets of a region whose sites' feet are found without a known one near by.
+        """
+        return None if self._curved else self.incidence
+
+    @staticmethod
+    def place_together(
+        members: Sequence[SheetSurface], which: Ints, points: Array
+    ) -> tuple[Array, Bools]:
+        """Points (k, 3), each moved onto a member of a family, and whether that succeeded (k,).
+
+        Args:
+            members: of the family.
+            which: (k,) the member that each point belongs to.
+            points: (k, 3).
+        """
+        it = members[0].incidence
+        pairs: Ints = np.array([member.sites for member in members])[which]
+        feet = np.repeat(points[:, None], 2, axis=1)
+        found = equidistant(it.boundary, it.sites, pairs, points, feet)
+        return found.points, found.converged
+
+    @staticmethod
+    def normals_together(
+        members: Sequence[SheetSurface], which: Ints, points: Array
+    ) -> tuple[Array, Bools]:
+        """Unit normals (k, 3) at points on members of a family, and whether they are good (k,).
+
+        Where one is not, its member has to be asked by itself.
+        """
+        it = members[0].incidence
+        pairs: Ints = np.array([member.sites for member in members])[which]
+        one, two = (
+            site_fields(it.boundary, it.sites, pairs[:, k], points, points).gradient for k in (0, 1)
+        )
+        length = norm(one - two)
+        good = length > CLEAR
+        return (one - two) / np.where(good, length, 1.0)[:, None], good
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) straight onto the surface.
@@ -93,5 +135,17 @@ class SheetSurface:
         return np.asarray(gradients[0] - gradients[1])
 
     def _nearest(self, points: Array) -> Ints:
-        tree: cKDTree = object.__getattribute__(self, "_tree")
-        return np.asarray(tree.query(points)[1], dtype=np.int64)
+        """The known point nearest to each one, if a site's foot depends on it."""
+        if not self._curved:
+            return np.zeros(len(points), dtype=np.int64)
+        return np.asarray(self._tree.query(points)[1], dtype=np.int64)
+
+    @cached_property
+    def _curved(self) -> bool:
+        """Whether a site is a curve on which feet are searched from known ones."""
+        table = support_table(self.incidence.boundary, self.incidence.sites)
+        return bool((table.kinds[list(self.sites)] == CURVE).any())
+
+    @cached_property
+    def _tree(self) -> cKDTree:
+        return cKDTree(self.points)
