@@ -146,7 +146,7 @@ class _Grower:
         while self._open:
             node, ray = self._open.pop()
             if (node, ray) not in self._taken:
-                traced = self._tracer.trace(self._starts[node, ray])
+                traced = self._trace(self._starts[node, ray])
                 number = self._new_number()
                 self._taken[node, ray] = number
                 seam = self._between(traced, (node, self._end(traced, number)))
@@ -186,14 +186,17 @@ class _Grower:
                 return
             state = whole
         number = self._new_number()
-        forward = self._tracer.trace(state)
+        forward = self._trace(state)
         if forward.end is SeamEnd.CLOSED:
             self._seams.add(number, _seam(forward, None))
             return
-        back = self._tracer.trace(state.turned())
+        back = self._trace(state.turned())
         ends = (self._end(back, number), self._end(forward, number))
         self._seams.add(number, self._between(_joined(back, forward), ends))
         self.grow()
+
+    def _trace(self, start: State) -> Traced:
+        return self._tracer.trace(start, lambda point: self._known_node(point) is not None)
 
     def _end(self, traced: Traced, number: int) -> int:
         """The node at the end of a traced seam, its ray there taken by the seam."""

@@ -6,7 +6,7 @@ the neighbouring site takes over: a trim, where the seam goes on smoothly, unles
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -142,8 +142,12 @@ class SeamTracer:
         self._walls = Walls(boundary, index.sites, self.table)
         self._tracks: dict[int, Track] = {}
 
-    def trace(self, start: State) -> Traced:
+    def trace(self, start: State, stops: Callable[[Array], bool] | None = None) -> Traced:
         """Follow a seam from `start` in the sense of its tangent.
+
+        Args:
+            start: its first point.
+            stops: whether there is a node at a point (3,) where the sites change.
 
         Raises:
             GeometryError: the seam cannot be followed; says where.
@@ -194,7 +198,8 @@ class SeamTracer:
             runs.append(self._run(room, kept, here.sites))
             if self._merged(at, MET):
                 return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
-            switched = self._onwards(at)
+            known = stops is not None and stops(at.point)
+            switched = None if known else self._onwards(at)
             if switched is None:
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             here = switched
