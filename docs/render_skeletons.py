@@ -17,11 +17,13 @@ from typing import Any
 
 import numpy as np
 import pyvista
+from PIL import Image
 
+from decomp.errors import GeometryError
 from decomp.medial.result import Skeleton
 from decomp.output.elements import KINDS, Elements, elements
 
-SIZE = (1200, 900)
+SIZE = (1000, 750)
 VIEW = np.array([0.47, -0.74, 0.48])
 OPACITY = 0.78
 DOZEN = (
@@ -82,7 +84,8 @@ def draw(skeleton: Skeleton, path: Path, wires: bool) -> None:
         dot = pyvista.Sphere(radius=0.008 * skeleton.diagonal, center=point)
         plotter.add_mesh(dot, color="black")
     look_at(plotter, parts.points)
-    plotter.screenshot(str(path))
+    picture = Image.fromarray(plotter.screenshot(None, return_img=True))
+    picture.quantize(128).save(path, optimize=True)
     plotter.close()
 
 
@@ -129,11 +132,17 @@ def main() -> int:
     sys.path.insert(0, str(Path(__file__).parents[1]))
     from tests.solids import SOLIDS
 
+    failed = 0
     for name in DOZEN:
         path = options.output / f"skeleton-{name.replace(' ', '-')}.png"
-        draw(skeleton(SOLIDS[name].make()), path, options.wires)
-        print(path)
-    return 0
+        try:
+            draw(skeleton(SOLIDS[name].make()), path, options.wires)
+        except GeometryError as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            failed = 1
+        else:
+            print(path, flush=True)
+    return failed
 
 
 if __name__ == "__main__":
