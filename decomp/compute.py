@@ -25,6 +25,7 @@ from decomp.complex.refine import refined
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
+from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
 from decomp.medial.assembly import BoundaryVertices, RegionAssembler, RegionParts, owners
 from decomp.medial.region_curves import RegionCurves, region_curves
@@ -100,17 +101,21 @@ class _Attempt:
         for number, boundary in enumerate(geometry.regions):
             self._tell(f"tracing {boundary.name}", 0.6 * number / len(geometry.regions))
             curves.append(region_curves(geometry.index, boundary, number, self._samples))
-        fineness = self._relative
-        for _ in range(FINENESSES):
+        fineness = fine_enough(geometry, self._relative, SHARE)
+        for left in reversed(range(FINENESSES)):
             self._tell("triangulating sheets", 0.6)
             surface, parts = self._parts(curves, fineness * geometry.diagonal)
             self._tell("refining", 0.7)
             whole = _Whole(geometry, self._relative, fineness, surface, curves, parts)
+            error = volume_error(geometry, surface, whole.complex)
+            if error > VOLUME and left:
+                fineness = finer(fineness, error)
+                continue
             self._tell("measuring", 0.9)
             result = whole.result()
             if not result.only_volume:
                 break
-            fineness *= 0.9 * VOLUME / result.volume_error
+            fineness = finer(fineness, result.volume_error)
         return result.skeleton, result.failures
 
     def _parts(
