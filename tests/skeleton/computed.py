@@ -36,8 +36,8 @@ SLOW = {
 
 UNFINISHED = {
     "square cylinder": "its axis has no length, and no seam either",
-    "equal tee": "not finished in time",
-    "unequal tee": "not finished in time",
+    "equal tee": "two cylinders of one radius",
+    "unequal tee": "trim surface of the edge with itself",
 }
 """Models whose skeleton cannot be computed yet, and why."""
 

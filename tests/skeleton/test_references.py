@@ -339,27 +339,39 @@ def test_equal_tee() -> None:
 
 
 def test_square_boss() -> None:
-    """Under the boss runs a sheet between two edges of one face."""
+    """Under the boss run sheets between two edges of one face; below its corners they end freely.
+
+    The ball in the middle touches all four sides of the boss, its top and the plate's bottom.
+    """
     plate = region_of("square boss")
-    edges = [f"boss.{side}|plate.zmax" for side in ("xmin", "xmax", "ymin", "ymax")]
-    between = {
-        plate.names(s.sites)
-        for s in plate.parts.sheets
-        if all(name in edges for name in plate.names(s.sites))
-    }
-    assert between
-    for pair in between:
-        assert len(set(pair)) == 2
+    sides = ("xmin", "xmax", "ymin", "ymax")
+    for first, second in ((a, b) for a in sides[:2] for b in sides[2:]):
+        edges = f"boss.{first}|plate.zmax", f"boss.{second}|plate.zmax"
+        (sheet,) = plate.sheets(*edges)
+        assert sheet.radius == pytest.approx((0, 1), abs=1e-9)
+        x, y, _ = (plate.on_sheets(*edges) - [2, 2, 0]).T
+        assert np.abs(x) == pytest.approx(np.abs(y), abs=1e-12)
+    assert len(plate.parts.rims) == 4
+    assert [rim.length for rim in plate.parts.rims] == pytest.approx([0.5] * 4, rel=1e-9)
+    assert plate.counts() == (29, 20, 21)
+    assert (2, 2, 1, 1) in plate.inner_junctions()
+    corners = [(x, y, 0.5, 0.5) for x in (0.5, 1, 3, 3.5) for y in (x, 4 - x)]
+    assert plate.inner_junctions() == sorted([*corners, (2, 2, 1, 1)])
 
 
 def test_round_boss() -> None:
-    """The base circle is nearest to points of the boss's axis from all around."""
+    """The round edge is its own partner on an axis, below the axis of the boss's side."""
     plate = region_of("round boss")
     edge = "boss.side|plate.zmax"
-    (site,) = {k for k, s in enumerate(plate.skeleton.sites) if s.name == edge and s.region == 0}
-    assert any(locus.site == site for locus in plate.parts.reflexive) or plate.sheets(edge, edge)
+    lengths = {plate.names((locus.site,))[0]: locus.length for locus in plate.parts.reflexive}
+    # up to the ball that touches the top; down to the one that touches the bottom
+    below = 1 - (1 + 0.7**2) / 2
+    assert lengths == pytest.approx({"boss.side": 0.3, edge: below}, rel=1e-9)
     x, y, z = (plate.on_sheets(edge, "plate.zmin") - [2, 2, 0]).T
     assert np.hypot(np.hypot(x, y) - 0.7, z - 1) == pytest.approx(z, abs=1e-12)
+    (circle,) = plate.parts.trims
+    assert circle.closed
+    assert circle.length == pytest.approx(1.4 * pi, rel=CURVED)
 
 
 def test_countersink() -> None:
