@@ -28,6 +28,10 @@ from decomp.tracing.balls import inscribed_balls
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 
 
+ALONG_LOCI = 24
+"""Chords at least along a reflexive curve to which trim surfaces lead."""
+
+
 @dataclass(frozen=True, eq=False)
 class BoundaryVertices:
     """Where a region's boundary is in the complex.
@@ -155,7 +159,11 @@ class RegionAssembler:
 
     def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
         loop = piece.ends is None or piece.ends[0] == piece.ends[1]
-        found = sampled(piece.element, piece.points, self._tolerance, 3 if loop else 1)
+        least = 3 if loop else 1
+        if piece.kind is LineKind.REFLEXIVE and any(not run.resting for run in self._curves.runs):
+            # trim surfaces lead up to it: without samples their first triangles would be too wide
+            least = ALONG_LOCI
+        found = sampled(piece.element, piece.points, self._tolerance, least)
         inner = [self._add(p) for p in found[1:-1]]
         if piece.ends is None:
             first = last = self._add(found[0])

@@ -94,7 +94,13 @@ class EdgeNormals(NormalCurve):
 
     def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
         boundary = self.incidence.boundary
-        feet = edge_foot(boundary, self.edge, points, near)
+        # points of the surface have their feet on the face's carrier on the edge
+        carrier = boundary.carriers[boundary.faces[self.face].carrier]
+        beside = carrier.foot(points)
+        far = norm(beside - near) > 0.1 * norm(points - near)
+        feet = edge_foot(boundary, self.edge, beside, beside)
+        # on the reflexive locus the carrier has many feet, of which only a known one helps
+        feet[far] = edge_foot(boundary, self.edge, points[far], near[far])
         ways = self.incidence.inward(self.face, feet)
 
         def change(height: Array) -> Array:
