@@ -64,7 +64,7 @@ def _at(
     local = _local(tracer, ahead, touching, ray, h)
     if local is None:
         return None
-    contacts, sites, feet, distance = local
+    contacts, feet, distance = local
     unfolds = len(set(contacts.tolist())) < len(contacts)
     gradients = (ahead - feet) / distance[:, None]
     found: list[tuple[tuple[int, ...], State]] = []
@@ -75,9 +75,7 @@ def _at(
                 continue
             return None
         start = ahead + across
-        state = tracer.state(sites[chosen].tolist(), start, feet[chosen], ray.direction)
-        if state is None or not tracer.holds(state):
-            state = tracer.settled(start, feet[chosen], ray.direction)
+        state = tracer.settled(start, feet[chosen], ray.direction)
         if state is None or not _holds_before(tracer, point, state, ray):
             return None
         found.append((tuple(contacts[chosen].tolist()), state))
@@ -97,12 +95,12 @@ def _holds_before(tracer: SeamTracer, point: Array, state: State, ray: SeamRay) 
 
 def _local(
     tracer: SeamTracer, ahead: Array, touching: Contacts, ray: SeamRay, h: float
-) -> tuple[Ints, Ints, Array, Array] | None:
+) -> tuple[Ints, Array, Array] | None:
     """The feet of a point on the boundary near those of a ray's contacts.
 
     Returns:
-        For each foot the contact (m,) that it comes from, its site (m,), the foot (m, 3) and the
-        distance (m,), in cyclic order.
+        For each foot the contact (m,) that it comes from, the foot (m, 3) and the distance (m,), in
+        cyclic order.
     """
     listed = [(c, site) for c in ray.contacts for site in touching.sites[c]]
     contacts, sites = (np.array(column, dtype=np.int64) for column in zip(*listed, strict=True))
@@ -122,7 +120,7 @@ def _local(
     away = feet[kept] - ahead
     order = np.argsort(np.arctan2(-away @ y, -away @ x))
     rows = np.array(kept)[order]
-    return contacts[rows], sites[rows], feet[rows], distance[rows]
+    return contacts[rows], feet[rows], distance[rows]
 
 
 def _cells(

@@ -233,19 +233,20 @@ class SeamTracer:
         Where a foot is shared by several sites (on an edge), a query from a little way towards it
         tells which of them is touched from here.
         """
-        before: set[tuple[int, ...]] = set()
+        sound: State | None = None
+        sites: tuple[int, ...] = ()
         for _ in range(6):
-            sites = tuple(int(k) for k in self._towards(point, feet).site)
-            if sites in before:
-                return None
-            before.add(sites)
+            found = tuple(int(k) for k in self._towards(point, feet).site)
+            if found == sites and sound is not None:
+                return sound
+            sites = found
             state = self.state(sites, point, feet, along)
             if state is None:
-                return None
+                return sound
             if self.holds(state):
-                return state
+                sound = state
             point, feet = state.point, state.feet
-        return None
+        return sound
 
     def _towards(self, point: Array, feet: Array) -> Nearest:
         return self.queries.nearest(point + TOWARDS * (feet - point))
