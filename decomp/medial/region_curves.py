@@ -21,6 +21,7 @@ from decomp.medial.reflexive import ReflexivePart, reflexive_parts
 from decomp.medial.relabel import merging_rays, relabelled
 from decomp.medial.rims import rim_pieces
 from decomp.medial.sectors import with_pairs
+from decomp.medial.touching import touching_points
 from decomp.sites import SiteIndex
 from decomp.tracing.graph import seam_graph
 from decomp.vectors import Array
@@ -76,8 +77,9 @@ def region_curves(
     over = normal_curves(incidence)
     parts = reflexive_parts(index, incidence)
     trims, runs = trim_pieces(index, incidence, over)
+    seams = seam_pieces(incidence, graph.seams)
     found = [
-        *seam_pieces(incidence, graph.seams),
+        *seams,
         *trims,
         *ray_pieces(index, incidence),
         *rim_pieces(index, incidence),
@@ -86,6 +88,7 @@ def region_curves(
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
     turns = [run.points[k] for run in runs for k in (0, -1)]
+    turns += touching_points(incidence, seams)
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(

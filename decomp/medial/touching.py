@@ -1,0 +1,106 @@
+"""Where a seam touches a trim without crossing it.
+
+A foot can come to the end of its site and turn back. The seam and the trim then have a point and a
+tangent in common, at which both must be cut. Along the seam a measure of how far the foot is from
+its site's end has a minimum there that is zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
+
+from decomp.boundary.topology import Convexity
+from decomp.complex.model import LineKind
+from decomp.medial.incidence import Incidence
+from decomp.medial.pieces import CurvePiece
+from decomp.sites.site import SiteKind
+from decomp.tracing.fields import site_fields
+from decomp.vectors import Array, norm
+
+CLOSE = 0.05
+"""Minima of the measure (radians, or parts of the size) that are looked at more closely."""
+ZERO = 1e-7
+
+Measure = Callable[[Array], Array]
+
+
+def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[Array]:
+    """Points (3,) at which seams touch trims."""
+    found: list[Array] = []
+    for piece in pieces:
+        if piece.kind is LineKind.SEAM:
+            for contact, foot in zip(piece.contacts, piece.feet, strict=True):
+                if len(contact) == 1:
+                    for measure in _measures(incidence, contact[0], foot):
+                        found.extend(_zeros(piece, measure))
+    return found
+
+
+def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
+    """Measures of how far the feet of points (k, 3) on a site are from its ends."""
+    it = incidence.sites[site]
+    boundary = incidence.boundary
+
+    def feet(points: Array) -> Array:
+        which = np.full(len(points), site, dtype=np.int64)
+        known = np.repeat(near[None], len(points), axis=0)
+        return site_fields(boundary, incidence.sites, which, points, known).foot
+
+    if it.kind is SiteKind.EDGE:
+
+        def angle(face: int) -> Measure:
+            def measure(points: Array) -> Array:
+                q = feet(points)
+                way = (points - q) / norm(points - q)[:, None]
+                return norm(way - incidence.inward(face, q))
+
+            return measure
+
+        return [angle(face) for face in boundary.edges[it.index].faces]
+    if it.kind is SiteKind.FACE:
+
+        def gap(carrier: int) -> Measure:
+            def measure(points: Array) -> Array:
+                away = np.abs(boundary.carriers[carrier].signed_distance(feet(points)))
+                return np.asarray(away / boundary.diagonal)
+
+            return measure
+
+        own = boundary.faces[it.index].carrier
+        others = {
+            carrier
+            for e in incidence.edges_of_face[it.index]
+            if boundary.edges[e].convexity is Convexity.REENTRANT
+            for carrier in boundary.edges[e].carriers
+        }
+        return [gap(carrier) for carrier in sorted(others - {own})]
+    return []
+
+
+def _zeros(piece: CurvePiece, measure: Measure) -> list[Array]:
+    """Points inside a piece at which a measure that is never negative has a zero minimum."""
+    points = piece.points
+    values = measure(points)
+    inner = values[1:-1]
+    rows = np.flatnonzero((inner <= values[:-2]) & (inner <= values[2:]) & (inner < CLOSE)) + 1
+    found = []
+    for k in rows:
+
+        def at(share: float, k: int = int(k)) -> Array:
+            one, two = (k - 1, k) if share < 1 else (k, k + 1)
+            part = share if share < 1 else share - 1
+            chord = points[one] + part * (points[two] - points[one])
+            return piece.element.place(chord[None])
+
+        best = minimize_scalar(
+            lambda share: float(measure(at(share))[0]),
+            bounds=(0.0, 2.0),
+            method="bounded",
+            options={"xatol": 1e-11},
+        )
+        if float(best.fun) <= ZERO and 1e-3 < float(best.x) < 2 - 1e-3:
+            found.append(at(float(best.x))[0])
+    return found
