@@ -120,9 +120,8 @@ def trim_pieces(
     """The trims over normal curves: pieces of their own, and runs along reflexive loci."""
     found: list[CurvePiece] = []
     runs: list[LocusRun] = []
-    scanner = TrimScanner(index, incidence)
-    for number, curve in enumerate(curves):
-        for trim in scanner.pieces([curve]):
+    for number, trims in enumerate(TrimScanner(index, incidence).pieces(curves)):
+        for trim in trims:
             piece = _trim_piece(index, incidence, trim)
             if isinstance(piece, CurvePiece):
                 found.append(replace(piece, over=frozenset({number})))

@@ -34,6 +34,8 @@ AROUND = 72
 TOWARDS = 0.5
 BESIDE = 1e-4
 """How far from the end of a part its equation is first looked at, in units of the size."""
+PARTS = 32
+"""Parts into which an interval is cut to narrow down where zeros end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -364,11 +366,10 @@ class _Search:
         low, high = self._locus.span
         inside, outside = u, u + sense * 1.5 * (high - low) / 256
         for _ in range(80):
-            middle = (inside + outside) / 2
-            if float(self._depth(np.array([middle]))[0]) <= self._zero:
-                inside = middle
-            else:
-                outside = middle
+            cuts = np.linspace(inside, outside, PARTS + 1)
+            beyond_zero = np.append(self._depth(cuts[1:-1]) > self._zero, True)
+            first = int(np.argmax(beyond_zero))
+            inside, outside = float(cuts[first]), float(cuts[first + 1])
             if abs(outside - inside) <= 1e-15 * self._size:
                 break
         beyond = inside + sense * 1e-6 * self._size

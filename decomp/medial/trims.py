@@ -7,14 +7,15 @@ Between two changes lies one piece of trim.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
+from decomp.boundary.topology import Convexity
 from decomp.errors import GeometryError
-from decomp.medial.incidence import Incidence
+from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
@@ -70,31 +71,17 @@ class TrimScanner:
         self._index, self._incidence = index, incidence
         self._size = incidence.boundary.diagonal
 
-    def pieces(self, curves: Sequence[NormalCurve]) -> list[TrimPiece]:
-        """The pieces over some normal curves, in their order."""
-        found = []
-        for curve in curves:
-            found.extend(self._pieces_over(curve))
-        return found
-
-    def _pieces_over(self, curve: NormalCurve) -> list[TrimPiece]:
-        length = curve.end - curve.start
-        inner = np.linspace(0, 1, SAMPLES + 1)[1:-1]
-        near = np.geomspace(NEAREST_END, inner[0], 12)[:-1]
-        parts = (
-            np.concatenate([[0.0], inner])
-            if curve.closed
-            else np.concatenate([near, inner, 1 - near[::-1]])
-        )
-        samples = self._at(curve, curve.start + length * parts)
-        if curve.closed:
-            first = samples[0]
-            samples.append(_Sample(curve.end, first.far, first.foot, first.radius))
-        cuts: list[tuple[_Sample, _Sample]] = []
-        for low, high in itertools.pairwise(samples):
-            self._changes(curve, low, high, cuts)
-        bounds = [self._change(curve, low, high) for low, high in cuts]
-        return self._between(curve, samples, cuts, bounds)
+    def pieces(self, curves: Sequence[NormalCurve]) -> list[list[TrimPiece]]:
+        """The pieces over each of some normal curves, in their order."""
+        samples = self._at(curves, [_first(curve) for curve in curves])
+        for curve, found in zip(curves, samples, strict=True):
+            if curve.closed:
+                found.append(replace(found[0], s=curve.end))
+        cuts = self._changes(curves, samples)
+        return [
+            self._between(c, known, cut, [self._change(c, low, high) for low, high in cut])
+            for c, known, cut in zip(curves, samples, cuts, strict=True)
+        ]
 
     def _between(
         self,
@@ -126,8 +113,16 @@ class TrimScanner:
             )
         return pieces
 
-    def _at(self, curve: NormalCurve, s: Array) -> list[_Sample]:
-        feet, inward = curve.feet(s), curve.directions(s)
+    def _at(
+        self, curves: Sequence[NormalCurve], parameters: Sequence[Array]
+    ) -> list[list[_Sample]]:
+        """The samples over each of some normal curves at parameters of its own."""
+        if not curves:
+            return []
+        both = list(zip(curves, parameters, strict=True))
+        feet = np.concatenate([curve.feet(s) for curve, s in both])
+        inward = np.concatenate([curve.directions(s) for curve, s in both])
+        near = np.repeat([sorted(c.sites) for c in curves], [len(s) for s in parameters], axis=0)
         incidence = self._incidence
         boundary, sites = incidence.boundary, incidence.sites
         balls = inscribed_balls(self._index, boundary, incidence.region, feet, inward)
@@ -138,42 +133,84 @@ class TrimScanner:
         )
         hits = np.array(balls.foot)
         hits[known] = field.foot
-        own = on_locus(incidence, curve.sites, balls.centre)
-        result = []
-        for k in range(len(s)):
-            far: Contact
-            if own[k] or balls.site[k] < 0 or float(norm(hits[k] - feet[k])) <= 1e-7 * self._size:
-                far = tuple(sorted(curve.sites))
+        alone = self._alone(balls.site, hits)
+        own = (balls.site < 0) | (norm(hits - feet) <= 1e-7 * self._size)
+        stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
+        for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
+            own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
+        away = balls.centre - hits
+        length = norm(away)
+        found: list[_Sample] = []
+        for k, s in enumerate(np.concatenate(parameters).tolist()):
+            site = int(balls.site[k])
+            if own[k]:
+                far: Contact = (int(near[k, 0]), int(near[k, 1]))
+            elif alone[k]:
+                far = (site,)
             else:
-                away = (balls.centre[k] - hits[k]) / float(norm(balls.centre[k] - hits[k]))
-                far = incidence.touched(int(balls.site[k]), hits[k], away)
-            result.append(_Sample(float(s[k]), far, hits[k], float(balls.radius[k])))
+                far = incidence.touched(site, hits[k], away[k] / length[k])
+            found.append(_Sample(s, far, hits[k], float(balls.radius[k])))
+        return [found[a:b] for a, b in pairwise(stops)]
+
+    def _alone(self, site: Ints, feet: Array) -> Bools:
+        """Whether feet (k, 3) on sites (k,) are on faces and clearly on none of their bends."""
+        incidence = self._incidence
+        boundary, slack = incidence.boundary, 2 * NEAR * self._size
+        result = np.zeros(len(site), dtype=np.bool_)
+        for number in np.unique(site[site >= 0]).tolist():
+            it = incidence.sites[number]
+            if it.kind is not SiteKind.FACE:
+                continue
+            rows = np.flatnonzero(site == number)
+            edges = [boundary.edges[e] for e in incidence.edges_of_face[it.index]]
+            bends = [edge for edge in edges if edge.convexity is not Convexity.CONVEX]
+            clear = np.ones(len(rows), dtype=np.bool_)
+            for pair in {edge.carriers for edge in bends}:
+                gaps = [np.abs(boundary.carriers[c].signed_distance(feet[rows])) for c in pair]
+                clear &= np.maximum(*gaps) > slack
+            for vertex in {v for edge in edges for v in edge.vertices or ()}:
+                clear &= norm(boundary.vertices[vertex].point - feet[rows]) > slack
+            result[rows] = clear
         return result
 
     def _changes(
-        self,
-        curve: NormalCurve,
-        low: _Sample,
-        high: _Sample,
-        found: list[tuple[_Sample, _Sample]],
-    ) -> None:
-        """Append the narrowest intervals in which the far contact changes."""
-        stack = [(low, high, 0)]
-        while stack:
-            a, b, depth = stack.pop()
-            if a.far == b.far:
-                continue
-            if depth >= HALVINGS or b.s - a.s <= 1e-15 * (abs(a.s) + abs(b.s)):
-                found.append((a, b))
-                continue
-            middle = self._at(curve, np.array([(a.s + b.s) / 2]))[0]
-            # a contact that holds both is the change itself
-            if middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far):
-                found.append((a, b))
-                continue
-            stack.append((middle, b, depth + 1))
-            stack.append((a, middle, depth + 1))
-        found.sort(key=lambda pair: pair[0].s)
+        self, curves: Sequence[NormalCurve], samples: Sequence[Sequence[_Sample]]
+    ) -> list[list[tuple[_Sample, _Sample]]]:
+        """For each curve the narrowest intervals in which the far contact changes."""
+        found: list[list[tuple[_Sample, _Sample]]] = [[] for _ in curves]
+        wide = [(k, a, b) for k, row in enumerate(samples) for a, b in pairwise(row)]
+        for depth in range(HALVINGS + 1):
+            changing = [(k, a, b) for k, a, b in wide if a.far != b.far]
+            wide = []
+            halved = []
+            for k, a, b in changing:
+                if depth == HALVINGS or b.s - a.s <= 1e-15 * (abs(a.s) + abs(b.s)):
+                    found[k].append((a, b))
+                else:
+                    halved.append((k, a, b))
+            for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
+                # a contact that holds both is the change itself
+                if middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far):
+                    found[k].append((a, b))
+                else:
+                    wide += [(k, a, middle), (k, middle, b)]
+        for pairs in found:
+            pairs.sort(key=lambda pair: pair[0].s)
+        return found
+
+    def _middles(
+        self, curves: Sequence[NormalCurve], intervals: Sequence[tuple[int, _Sample, _Sample]]
+    ) -> list[_Sample]:
+        """The samples in the middle of intervals over curves of given numbers, in their order."""
+        middle: dict[int, list[float]] = {}
+        place_of = []
+        for k, a, b in intervals:
+            listed = middle.setdefault(k, [])
+            place_of.append((k, len(listed)))
+            listed.append((a.s + b.s) / 2)
+        rows = self._at([curves[k] for k in middle], [np.array(s) for s in middle.values()])
+        at = dict(zip(middle, rows, strict=True))
+        return [at[k][i] for k, i in place_of]
 
     def _change(self, curve: NormalCurve, low: _Sample, high: _Sample) -> float:
         """The exact parameter at which the far contact changes from `low` to `high`."""
@@ -213,6 +250,18 @@ def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools
             gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
             result |= gap <= LOCUS * boundary.diagonal
     return result
+
+
+def _first(curve: NormalCurve) -> Array:
+    """The parameters of the first samples over a normal curve."""
+    inner = np.linspace(0, 1, SAMPLES + 1)[1:-1]
+    near = np.geomspace(NEAREST_END, inner[0], 12)[:-1]
+    parts = (
+        np.concatenate([[0.0], inner])
+        if curve.closed
+        else np.concatenate([near, inner, 1 - near[::-1]])
+    )
+    return np.asarray(curve.start + (curve.end - curve.start) * parts)
 
 
 def solve_radius(
