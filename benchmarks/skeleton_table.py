@@ -139,7 +139,7 @@ def lines_of(name: str, rows: list[dict[str, Any]]) -> Iterator[str]:
         yield f"| {' | '.join(cells)} |"
 
 
-def document(results: dict[str, list[dict[str, Any]]], balls: int) -> str:
+def document(results: dict[str, list[dict[str, Any]]], balls: int, limit: float) -> str:
     """The whole of docs/skeletons.md."""
     rows = [row for found in results.values() for row in found]
     good = sum("error" not in row and not row["short"] for row in rows)
@@ -150,7 +150,8 @@ def document(results: dict[str, list[dict[str, Any]]], balls: int) -> str:
         if not any("error" in row for row in found):
             lines += lines_of(name, found)
     summary = (
-        f"{len(results)} models, {len(rows)} rows, {good} of them with all figures as required."
+        f"{len(results)} of {len(models())} models computed, each within {limit:g} s; {len(rows)} "
+        f"rows, {good} of them with all figures as required."
     )
     text = PREFACE.format(tolerance=TOLERANCE, coverage=2 * TOLERANCE, balls=balls)
     text += summary + "\n\n" + "\n".join(lines) + "\n"
@@ -182,8 +183,8 @@ def main() -> int:
     for name in options.only or models():
         results[name] = in_child(name, options.balls, options.limit)
         print("\n".join(lines_of(name, results[name])), flush=True)
-    if not options.only:
-        write_whole(OUTPUT, document(results, options.balls).encode())
+        if not options.only:  # after each, so that an interrupted run leaves what it has
+            write_whole(OUTPUT, document(results, options.balls, options.limit).encode())
     return 0
 
 
