@@ -27,9 +27,12 @@ from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 
-
 ALONG_LOCI = 24
 """Chords at least along a reflexive curve to which trim surfaces lead."""
+
+
+TURN = 0.35
+"""The most (radians) that normals turn from one sample of a trim to the next."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,10 +162,7 @@ class RegionAssembler:
 
     def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
         loop = piece.ends is None or piece.ends[0] == piece.ends[1]
-        least = 3 if loop else 1
-        if piece.kind is LineKind.REFLEXIVE and any(not run.resting for run in self._curves.runs):
-            # trim surfaces lead up to it: without samples their first triangles would be too wide
-            least = ALONG_LOCI
+        least = max(3 if loop else 1, self._least_chords(piece))
         found = sampled(piece.element, piece.points, self._tolerance, least)
         inner = [self._add(p) for p in found[1:-1]]
         if piece.ends is None:
@@ -170,6 +170,18 @@ class RegionAssembler:
         else:
             first, last = (nodes[k] for k in piece.ends)
         return np.array([first, *inner, last], dtype=np.int64)
+
+    def _least_chords(self, piece: CurvePiece) -> int:
+        """Chords that trim surfaces need along their upper ends, lest their triangles fold."""
+        if piece.kind is LineKind.REFLEXIVE:
+            return ALONG_LOCI if any(not run.resting for run in self._curves.runs) else 1
+        turns = [0.0]
+        for number in piece.over:
+            ways = self._curves.over[number].directions(
+                self._curves.over[number].parameter(piece.points)
+            )
+            turns.append(float(norm(np.diff(ways, axis=0)).sum()))
+        return 1 + int(max(turns) / TURN)
 
     def _sheets(
         self, points: Array, lines: Sequence[Ints], nodes: Sequence[int]
@@ -401,8 +413,7 @@ class _TrimMaker:
         corners = self._points[triangles]
         normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         wanted = surface.normal(corners.mean(axis=1))
-        against = dot(normals, wanted) < 0
-        oriented = np.where(against[:, None], triangles[:, ::-1], triangles)
+        oriented = triangles[:, ::-1] if float(dot(normals, wanted).sum()) < 0 else triangles
         faces = (self._owner[near], self._owner[far])
         return TrimSurface(-1, faces), Patch(PatchKind.TRIM, surface, oriented)
 

@@ -19,8 +19,14 @@ from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.incidence import ANGLE, Incidence, angle_between
+from decomp.medial.reflexive import reflexive_gap
 from decomp.tracing.fields import edge_foot
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
+
+LOCUS = 1e-7
+"""Points nearer to a reflexive locus than this part of the size lie on it."""
+STRAYED = 0.3
+"""Feet farther from the edge than this part of the normal's length are not those looked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,12 +101,14 @@ class EdgeNormals(NormalCurve):
     def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
         boundary = self.incidence.boundary
         # points of the surface have their feet on the face's carrier on the edge
-        carrier = boundary.carriers[boundary.faces[self.face].carrier]
+        face = boundary.faces[self.face]
+        carrier = boundary.carriers[face.carrier]
         beside = carrier.foot(points)
-        far = norm(beside - near) > 0.1 * norm(points - near)
         feet = edge_foot(boundary, self.edge, beside, beside)
         # on the reflexive locus the carrier has many feet, of which only a known one helps
-        feet[far] = edge_foot(boundary, self.edge, points[far], near[far])
+        lost = reflexive_gap(carrier, face.outward, points) <= LOCUS * boundary.diagonal
+        lost |= norm(feet - beside) > STRAYED * norm(points - beside)
+        feet[lost] = edge_foot(boundary, self.edge, points[lost], near[lost])
         ways = self.incidence.inward(self.face, feet)
 
         def change(height: Array) -> Array:
