@@ -65,10 +65,18 @@ def _at(
     if local is None:
         return None
     contacts, feet, distance = local
+    apart = APART * tracer.size
+    cells = _cells((ahead - feet) / distance[:, None], distance, ray.direction, apart)
+    if len(cells) == 1 and len(cells[0][0]) > 3 and float(norm(cells[0][1])) <= ASIDE * h:
+        # contacts that part at a higher order do so beside the point where the others meet
+        beside = ahead + cells[0][1]
+        again = _local(tracer, beside, touching, ray, h)
+        if again is not None:
+            ahead, (contacts, feet, distance) = beside, again
+            cells = _cells((ahead - feet) / distance[:, None], distance, ray.direction, apart)
     unfolds = len(set(contacts.tolist())) < len(contacts)
-    gradients = (ahead - feet) / distance[:, None]
     found: list[tuple[tuple[int, ...], State]] = []
-    for corners, across in _cells(gradients, distance, ray.direction, APART * tracer.size):
+    for corners, across in cells:
         chosen = list(corners)
         if float(norm(across)) > ASIDE * h:
             if unfolds:

@@ -276,7 +276,8 @@ class SeamTracer:
         if len(set(order)) != len(order):
             return None
         sites = tuple(ahead.sites[k] for k in order)
-        return self.state(sites, at.point, at.feet, at.tangent)
+        switched = self.state(sites, at.point, at.feet, at.tangent)
+        return None if switched is None else replace(switched, point=at.point)
 
     def _neighbour(self, sites: tuple[int, ...], beyond: State, intruder: int, foot: Array) -> int:
         """The contact whose site the intruder continues over an edge, -1 if there is none."""

@@ -38,8 +38,8 @@ def random_blocks(seed: int) -> decomp.Solid:
 @pytest.mark.parametrize(
     ("solid", "nodes", "seams"),
     [
-        # 10 corners; the ends of the arms, their elbow and two splits; 10 seams from corners, one in
-        # each arm, from each split one to the elbow, and one around the reentrant edge
+        # 10 corners; the ends of the arms, their elbow and two splits; 10 seams from corners, one
+        # in each arm, from each split one to the elbow, and one around the reentrant edge
         (ELL, 15, 15),
         # 8 corners, the four beside them, four splits, four junctions of four sites at the ends
         (SOLIDS["slot"].make(), 20, 26),
