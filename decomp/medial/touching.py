@@ -35,8 +35,17 @@ def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[
             for contact, foot in zip(piece.contacts, piece.feet, strict=True):
                 if len(contact) == 1:
                     for measure in _measures(incidence, contact[0], foot):
-                        found.extend(_zeros(piece, measure))
+                        zeros = _zeros(piece, measure)
+                        found += [p for p in zeros if _at_end(incidence, contact[0], foot, p)]
     return found
+
+
+def _at_end(incidence: Incidence, site: int, near: Array, point: Array) -> bool:
+    """Whether another site shares the contact of a site from a point (3,)."""
+    which = np.array([site])
+    found = site_fields(incidence.boundary, incidence.sites, which, point[None], near[None])
+    foot = found.foot[0]
+    return len(incidence.touched(site, foot, (point - foot) / float(norm(point - foot)))) > 1
 
 
 def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
