@@ -40,6 +40,7 @@ from decomp.medial.result import (
 )
 from decomp.medial.sheets import CrossingError, SheetPart
 from decomp.sites.site import SiteKind
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, cross, norm
 
 TOLERANCE = 5e-4
@@ -233,8 +234,13 @@ class _Whole:
         for triangles in boundary:
             on[triangles] = True
         rows = np.flatnonzero(~on)
+        index = self._geometry.index
+        for region in range(len(self._geometry.regions)):
+            inside, depth = region_queries(index, region).depth(points[rows])
+            radius[rows[inside]] = depth[inside]
+            rows = rows[~inside]
         if len(rows):
-            radius[rows] = self._geometry.index.nearest(points[rows]).distance
+            radius[rows] = index.nearest(points[rows]).distance
         return radius
 
     def _region(self, number: int, radius: Array) -> tuple[RegionSkeleton, Certified]:

@@ -10,6 +10,7 @@ from decomp.certificate.distance import TriangleTree, triangle_distance, triangl
 from decomp.certificate.evidence import Evidence, Worst
 from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 LEAST = 20
@@ -93,9 +94,11 @@ def _step(evidence: Evidence) -> float:
 def _in_face(evidence: Evidence, number: int, points: Array, inward: Array) -> Bools:
     """Whether points of a face's carrier lie in the face: from a little inside it is nearest."""
     step = _step(evidence)
-    found = evidence.index.nearest(points + step * inward)
+    found = region_queries(evidence.index, evidence.region).nearest(points + step * inward)
     own = [
         s.kind is SiteKind.FACE and s.region == evidence.region and s.index == number
         for s in evidence.sites
     ]
-    return np.array(own)[found.site] & (np.abs(found.distance - step) <= 1e-3 * step)
+    inside: Bools = np.array(own, dtype=np.bool_)[found.site]
+    inside &= (found.site >= 0) & (np.abs(found.distance - step) <= 1e-3 * step)
+    return inside

@@ -14,8 +14,8 @@ from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.medial.result import Reflexive, Sheet
 from decomp.sites.site import Site, SiteKind
-from decomp.tracing.balls import largest_gap
 from decomp.tracing.fields import site_fields
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, cross, dot, nearest_rows, norm
 
 BLOCK = 1 << 12
@@ -37,16 +37,18 @@ def intrusion(evidence: Evidence) -> Worst:
     """How deep the boundary enters the ball of a skeleton vertex: the worst of all."""
     which = evidence.skeleton_vertices()
     centre, radius = evidence.complex.points[which], evidence.radius[which]
-    # each ball by itself would tell where; the maximum over blocks is found first, as it is cheap
-    blocks = [slice(k, k + BLOCK) for k in range(0, len(which), BLOCK)]
-    gaps = [largest_gap(evidence.index, evidence.region, centre[b], radius[b]) for b in blocks]
-    if not gaps or max(gaps) == 0.0:
+    if not len(which):
         return Worst(0.0)
-    block = blocks[int(np.argmax(gaps))]
-    found = evidence.index.nearest(centre[block])
-    reach = np.where(found.region == evidence.region, found.distance, -found.distance)
-    k = int(np.argmax(radius[block] - reach))
-    return Worst(max(gaps) / evidence.diagonal, centre[block][k], (int(found.site[k]),))
+    inside, reach = region_queries(evidence.index, evidence.region).depth(centre)
+    outside = np.flatnonzero(~inside)
+    if len(outside):
+        reach[outside] = -evidence.index.nearest(centre[outside]).distance
+    k = int(np.argmax(radius - reach))  # a NaN counts as the largest
+    gap = float(radius[k] - reach[k])
+    if gap <= 0.0:
+        return Worst(0.0)
+    site = int(evidence.index.nearest(centre[k : k + 1]).site[0])
+    return Worst(gap / evidence.diagonal, centre[k], (site,))
 
 
 def _residuals(evidence: Evidence) -> Iterator[Worst]:
@@ -103,7 +105,7 @@ def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards:
     site = evidence.sites[number]
     if site.kind is not SiteKind.EDGE:
         return points
-    found = evidence.index.nearest(points)
+    found = region_queries(evidence.index, evidence.region).nearest(points)
     across = np.asarray(dot(found.foot - points, towards))[:, None]
     feet = np.where(across > 0, found.foot, found.foot - 2 * across * towards)
     others = np.flatnonzero(~np.isin(found.site, sheet.sites))

@@ -23,6 +23,7 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.sites import SiteIndex
 from decomp.tracing.fields import site_fields
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Bools, cross, frame, norm
 
 ZERO = 1e-10
@@ -277,10 +278,10 @@ def _touched(
     index: SiteIndex, incidence: Incidence, centre: Array, ways: Array, radius: float
 ) -> Bools:
     """Whether the boundary is touched at a distance in some directions (k, 3) from a point."""
-    half = index.nearest(centre + TOWARDS * radius * ways)
-    gap = np.abs(half.distance - (1 - TOWARDS) * radius)
-    close = gap <= 1e-9 * incidence.boundary.diagonal
-    return np.asarray((half.region == incidence.region) & close)
+    half = centre + TOWARDS * radius * ways
+    inside, depth = region_queries(index, incidence.region).depth(half)
+    gap = np.abs(depth - (1 - TOWARDS) * radius)
+    return np.asarray(inside & (gap <= 1e-9 * incidence.boundary.diagonal))
 
 
 class _Search:
@@ -311,11 +312,10 @@ class _Search:
 
     def _depth(self, u: Array) -> Array:
         points = self._locus.point(u)
-        near = self._index.nearest(points)
+        inside, depth = region_queries(self._index, self._incidence.region).depth(points)
         radius = self._locus.radius(u)
-        inside = (near.region == self._incidence.region) & (radius > self._zero)
-        depth = np.abs(radius - near.distance)
-        return np.where(inside, depth, radius + near.distance + self._zero)
+        inside &= radius > self._zero
+        return np.where(inside, np.abs(radius - depth), radius + depth + self._zero)
 
     def _runs(self, low: float, high: float) -> list[tuple[float, float]]:
         """Intervals of zeros, to `FINEST`: neighbouring samples that are all zero."""

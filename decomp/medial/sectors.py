@@ -19,6 +19,7 @@ from decomp.medial.incidence import Incidence
 from decomp.medial.pieces import CurvePiece
 from decomp.sites import SiteIndex
 from decomp.sites.occupancy import Labels
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, frame, norm, place
 
 RING = 360
@@ -80,13 +81,14 @@ def _cyclic(piece: CurvePiece) -> tuple[Pair, ...]:
 def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pair, ...]:
     middle = piece.middle
     x, y = frame(_tangent(piece))
-    radius = float(index.nearest(middle[None]).distance[0])
+    queries = region_queries(index, incidence.region)
+    radius = float(queries.depth(middle[None])[1][0])
     reach = REACH * min(radius, piece.length)
     angles = np.linspace(0, 2 * np.pi, RING, endpoint=False) + 0.1234567
 
     def at(angle: Array) -> tuple[Labels, Array]:
         ring = middle + reach * (np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y)
-        found = index.nearest(ring)
+        found = queries.nearest(ring)
         if (found.region != incidence.region).any():
             raise GeometryError(f"the sheets around {place(middle)} cannot be told apart")
         return found.site, found.foot

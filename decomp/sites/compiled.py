@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -41,17 +42,27 @@ def _compiled(function: F, **options: bool) -> F:
         compiled: Any = njit(cache=True, **common)(function)
     except RuntimeError:  # numba found no directory to write to
         return cast(F, njit(**common)(function))
-    # numba renews a cached kernel when its own file changes; it must also be renewed when a
-    # kernel changes that it calls in another file
-    with suppress(AttributeError):
-        compiled._cache._cache_file._source_stamp = _STAMP
+    restamp(compiled, Path(__file__).parent)
     return cast(F, compiled)
 
 
-def _stamp() -> tuple[float, int]:
-    """Latest change and total size of the files with kernels."""
-    stats = [file.stat() for file in Path(__file__).parent.glob("*.py")]
+def restamp(compiled: Any, *folders: Path) -> None:
+    """Have a cached kernel renewed when its own file or any file of some folders changes.
+
+    Numba by itself renews it when its own file changes, but not when a kernel changes that it
+    calls in another file.
+    """
+    own = Path(getattr(compiled, "py_func", compiled).__code__.co_filename).stat()
+    stamps = [(own.st_mtime, own.st_size), *(_stamp(folder) for folder in folders)]
+    with suppress(AttributeError):
+        compiled._cache._cache_file._source_stamp = (
+            max(changed for changed, _ in stamps),
+            sum(size for _, size in stamps),
+        )
+
+
+@cache
+def _stamp(folder: Path) -> tuple[float, int]:
+    """Latest change and total size of the files of a folder."""
+    stats = [file.stat() for file in folder.glob("*.py")]
     return max((s.st_mtime for s in stats), default=0.0), sum(s.st_size for s in stats)
-
-
-_STAMP = _stamp()
