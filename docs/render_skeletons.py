@@ -27,8 +27,8 @@ SIZE = (1000, 750)
 VIEW = np.array([0.47, -0.74, 0.48])
 OPACITY = 0.78
 DOZEN = (
-    "block", "cylinder", "through hole", "blind hole", "bracket", "pocket", "fichera", "equal tee",
-    "round boss", "square boss", "countersink", "oval ring",
+    "block", "cylinder", "through hole", "blind hole", "bracket", "pocket", "fichera", "slot",
+    "round boss", "square boss", "countersink", "oblique cone",
 )  # fmt: skip
 
 
