@@ -48,7 +48,8 @@ diagonal. `triangles` are those of the sheets; `seconds` of CPU time are for the
 boundary and certificate included, compiled kernels at hand. Lengths are relative to the model's
 diagonal, the volume error to the region's volume. Required: residual 1e-12, chord error
 {tolerance:g}, nothing flipped or open, volume error 1e-3, Euler characteristic that of the region,
-intrusion 1e-9, coverage {coverage:g} by {balls:,} maximal balls. Figures that miss this are **bold**.
+intrusion 1e-9, coverage {coverage:g} by {balls:,} maximal balls. Figures that miss this are
+**bold**.
 
 """
 
