@@ -34,21 +34,25 @@ def residual(evidence: Evidence) -> Worst:
 
 
 def intrusion(evidence: Evidence) -> Worst:
-    """How deep the boundary enters the ball of a skeleton vertex: the worst of all."""
-    which = evidence.skeleton_vertices()
-    centre, radius = evidence.complex.points[which], evidence.radius[which]
+    """How deep the boundary enters the ball of a skeleton vertex: the worst of all.
+
+    Vertices that the skeleton shares with the boundary have no ball; `residual` measures them.
+    """
+    sides = [patch for face in evidence.face_sides for patch, _ in face]
+    shared = [evidence.complex.patches[patch].triangles.reshape(-1) for patch in sides]
+    which = np.setdiff1d(evidence.skeleton_vertices(), np.concatenate(shared))
     if not len(which):
         return Worst(0.0)
-    inside, reach = region_queries(evidence.index, evidence.region).depth(centre)
+    centre, radius = evidence.complex.points[which], evidence.radius[which]
+    queries = region_queries(evidence.index, evidence.region)
+    inside, reach = queries.depth(centre)
     outside = np.flatnonzero(~inside)
     if len(outside):
         reach[outside] = -evidence.index.nearest(centre[outside]).distance
     k = int(np.argmax(radius - reach))  # a NaN counts as the largest
-    gap = float(radius[k] - reach[k])
-    if gap <= 0.0:
-        return Worst(0.0)
-    site = int(evidence.index.nearest(centre[k : k + 1]).site[0])
-    return Worst(gap / evidence.diagonal, centre[k], (site,))
+    gap = max(float(radius[k] - reach[k]), 0.0)
+    site = int(queries.nearest(centre[k : k + 1]).site[0])
+    return Worst(gap / evidence.diagonal, centre[k], (site,) if site >= 0 else ())
 
 
 def _residuals(evidence: Evidence) -> Iterator[Worst]:
