@@ -25,6 +25,8 @@ from decomp.vectors import Ints, place, positive
 
 Progress: TypeAlias = Callable[[int], None]
 
+ROUNDS: Final = 300
+"""Batches of splits after which a surface counts as one that cannot be followed."""
 PATIENCE: Final = 12
 """So often triangles that only lean are split."""
 
@@ -68,7 +70,7 @@ def refined(
 def _split(mesh: Mesh, progress: Progress | None) -> None:
     """Split and flip until all errors are within the limit and no triangle leans."""
     patience = PATIENCE
-    while True:
+    for _ in range(ROUNDS):
         flip(mesh)
         if progress is not None:
             progress(len(mesh.triangles))
@@ -79,6 +81,10 @@ def _split(mesh: Mesh, progress: Progress | None) -> None:
         patience -= 1
         if not (leaning or split_twins(mesh)):
             return
+    worst = int(np.nanargmax(mesh.error))
+    name = mesh.elements.names[int(mesh.surface[worst])]
+    at = place(mesh.points[mesh.triangles[worst]].mean(axis=0))
+    raise GeometryError(f"the {name} cannot be followed to the tolerance near {at}")
 
 
 def _check_folds(mesh: Mesh, least_upright: float) -> None:

@@ -25,6 +25,8 @@ from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
 LOCUS = 1e-7
 """Points nearer to a reflexive locus than this part of the size lie on it."""
+BESIDE = 0.05
+"""Points nearer to a reflexive locus than this part of the normal's length are close to it."""
 STRAYED = 0.3
 """Feet farther from the edge than this part of the normal's length are not those looked for."""
 
@@ -105,9 +107,13 @@ class EdgeNormals(NormalCurve):
         carrier = boundary.carriers[face.carrier]
         beside = carrier.foot(points)
         feet = edge_foot(boundary, self.edge, beside, beside)
-        # on the reflexive locus the carrier has many feet, of which only a known one helps
-        lost = reflexive_gap(carrier, face.outward, points) <= LOCUS * boundary.diagonal
-        lost |= norm(feet - beside) > STRAYED * norm(points - beside)
+        gap = reflexive_gap(carrier, face.outward, points)
+        strayed = norm(feet - beside) > STRAYED * norm(points - beside)
+        # close to the reflexive locus a point's own place along it tells more than its direction
+        close = gap <= BESIDE * norm(points - beside)
+        feet[close] = edge_foot(boundary, self.edge, points[close], feet[close])
+        # on it the carrier has many feet, of which only a known one helps
+        lost = (gap <= LOCUS * boundary.diagonal) | strayed
         feet[lost] = edge_foot(boundary, self.edge, points[lost], near[lost])
         ways = self.incidence.inward(self.face, feet)
 
