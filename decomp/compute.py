@@ -38,7 +38,7 @@ from decomp.medial.result import (
     Skeleton,
     SkeletonLine,
 )
-from decomp.medial.sheets import CrossingError, SheetPart
+from decomp.medial.sheets import CrossingError, MissingCurveError, SheetPart
 from decomp.sites.site import SiteKind
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, cross, norm
@@ -80,7 +80,11 @@ def skeleton(
     tell = progress or (lambda what, done: None)
     failures: list[str] = []
     for samples in SAMPLES:
-        result, failures = _Attempt(geometry, tolerance, samples, tell).result()
+        try:
+            result, failures = _Attempt(geometry, tolerance, samples, tell).result()
+        except MissingCurveError as error:
+            failures = [str(error)]
+            continue
         if result is not None:
             return result
     raise GeometryError(

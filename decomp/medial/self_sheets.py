@@ -10,7 +10,7 @@ import numpy as np
 from decomp.complex.planar import crossings, triangulate
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
-from decomp.medial.sheets import CrossingError, SheetPart, segments_of
+from decomp.medial.sheets import CrossingError, MissingCurveError, SheetPart, segments_of
 from decomp.sites import SiteIndex
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
@@ -106,7 +106,7 @@ class SelfSheetMaker:
         rows = np.linspace(0, len(points) - 1, min(TESTS, len(points))).astype(np.int64)
         votes = self._in_skeleton(site, plane, points[rows])
         if votes.any() and not votes.all():
-            raise GeometryError(
+            raise MissingCurveError(
                 f"the sheet of the edge {self._incidence.sites[site].name} with itself has no "
                 f"clear end near {place(points[rows[~votes][0]])}"
             )

@@ -66,6 +66,10 @@ class CrossingError(GeometryError):
         self.segments = segments
 
 
+class MissingCurveError(GeometryError):
+    """A part of a footprint is partly sheet and partly not: a curve between them is not known."""
+
+
 @dataclass(frozen=True, eq=False)
 class SheetPart:
     """One sheet as triangles.
@@ -397,7 +401,9 @@ class SheetMaker:
             if UNCLEAR < share < 1 - UNCLEAR:
                 odd = where[own][yes[own] != (share > 0.5)][0]
                 names = " and ".join(self._incidence.sites[s].name for s in pair)
-                raise GeometryError(f"the sheet between {names} has no clear end near {place(odd)}")
+                raise MissingCurveError(
+                    f"the sheet between {names} has no clear end near {place(odd)}"
+                )
             if share > 0.5:
                 kept.append(number)
         return kept
