@@ -31,6 +31,7 @@ from decomp.certificate.coverage import boundary_samples, random_points, skeleto
 from decomp.certificate.distance import triangle_distance, triangle_tree
 from decomp.certificate.evidence import Evidence
 from decomp.csg.solid import Solid
+from decomp.errors import GeometryError
 
 REFERENCE = 1e-4
 APART = 3.0
@@ -169,13 +170,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--samples", type=int, default=20_000)
     parser.add_argument("--angle", type=float, default=40.0, help="degrees")
+    parser.add_argument("--only", nargs="+", choices=MODELS, default=list(MODELS), metavar="NAME")
     options = parser.parse_args()
     decomp.skeleton(decomp.Block((0, 0, 0), (1, 2, 3)))  # loads the kernels
     table = Table(title=f"skeletons from {options.samples:,} samples, angle {options.angle:g}°")
     for heading in ("model", "tool", "CPU s", "triangles", "to exact", "from exact", "Euler"):
         table.add_column(heading, justify="left" if heading in ("model", "tool") else "right")
-    for name in MODELS:
-        for row in rows_of(name, options.samples, options.angle):
+    for name in options.only:
+        try:
+            rows = rows_of(name, options.samples, options.angle)
+        except GeometryError as error:
+            rows = [[name, "decomp", str(error)]]
+        for row in rows:
             table.add_row(*row)
             print(" | ".join(row), flush=True)
     Console(width=120).print(table)
