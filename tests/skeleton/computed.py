@@ -35,10 +35,20 @@ SLOW = {
 }
 """Models that take more than a few seconds."""
 
-LONG = {"netgen/manyholes2.geo", "netgen/matrix.geo"}
+LONG = {
+    "netgen/manyholes2.geo",
+    "netgen/matrix.geo",
+    "netgen/trafo.geo",
+    "ngsolve/arperture.geo",
+    "ngsolve/coil.geo",
+    "ngsolve/coilshield.geo",
+}
 """Models that take minutes; they are left out unless LAWS asks for more effort."""
 
 UNFINISHED = {
+    "cone": "sheets around a point beyond its apex are asked for",
+    "netgen/period.geo": "curves cross in a footprint",
+    "netgen/twocyl.geo": "an edge's sheet with itself that has no plane of symmetry",
     "square cylinder": "its axis has no length, and no seam either",
     "equal tee": "two cylinders of one radius",
     "unequal tee": "trim surface of the edge with itself",

@@ -140,6 +140,7 @@ def test_capsule_is_a_segment() -> None:
     assert sum(locus.length for locus in rod.parts.reflexive) == pytest.approx(2, rel=1e-12)
 
 
+@unfinished("cone")
 def test_cone() -> None:
     """The axis goes from the centre of the inscribed sphere to the apex."""
     cone = region_of("cone")
