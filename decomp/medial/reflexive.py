@@ -315,7 +315,7 @@ class _Search:
         inside, depth = region_queries(self._index, self._incidence.region).depth(points)
         radius = self._locus.radius(u)
         inside &= radius > self._zero
-        return np.where(inside, np.abs(radius - depth), radius + depth + self._zero)
+        return np.where(inside, np.abs(radius - depth), radius + depth + 2 * self._zero)
 
     def _runs(self, low: float, high: float) -> list[tuple[float, float]]:
         """Intervals of zeros, to `FINEST`: neighbouring samples that are all zero."""
