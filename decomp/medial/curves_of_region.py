@@ -10,12 +10,13 @@ from functools import partial
 import numpy as np
 from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
+from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.complex.model import LineKind
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.medial.pieces import CurvePiece
-from decomp.medial.reflexive import ReflexivePart, inner_radius, reflexive_gap
+from decomp.medial.reflexive import ReflexivePart
 from decomp.medial.trims import TrimPiece, TrimScanner, solve_radius
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind

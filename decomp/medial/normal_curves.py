@@ -15,11 +15,11 @@ from functools import cached_property
 import numpy as np
 
 from decomp.boundary.topology import Convexity, Edge
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.incidence import ANGLE, Incidence, angle_between
-from decomp.medial.reflexive import reflexive_gap
 from decomp.tracing.fields import edge_foot
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 

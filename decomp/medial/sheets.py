@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.carriers import Sphere
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.complex.domains import Domain, domain_of
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import (
@@ -27,7 +28,6 @@ from decomp.complex.planar import (
 )
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
-from decomp.medial.reflexive import reflexive_gap
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.unrolled import unrolled
 from decomp.sites import SiteIndex

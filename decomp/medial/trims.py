@@ -14,10 +14,10 @@ from itertools import pairwise
 import numpy as np
 
 from decomp.boundary.topology import Convexity
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.errors import GeometryError
 from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.normal_curves import NormalCurve
-from decomp.medial.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls

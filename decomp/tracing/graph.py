@@ -15,6 +15,7 @@ from itertools import product
 import numpy as np
 
 from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
@@ -37,6 +38,8 @@ WELD = 1e-7
 CELL = 1e-3
 ENDING = 1e-5
 LEAST_SLOPE = 1e-9
+LOCUS = 1e-7
+"""Points nearer to a reflexive locus than this part of the size lie on it."""
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
 
@@ -176,7 +179,9 @@ class _Grower:
         return [state for state in states if state is not None]
 
     def _start_inside(self, state: State) -> None:
-        """Trace the seam through a point."""
+        """Trace the seam through a point, unless sheets only meet there in a reflexive point."""
+        if self._on_locus(state):
+            return
         touching = self._tracer.contacts.at(state.point, SLACK * self._size)
         if len(touching.feet) > len(state.sites):
             whole = self._tracer.settled(state.point, touching.feet, state.tangent)
@@ -194,6 +199,18 @@ class _Grower:
         ends = (self._end(back, number), self._end(forward, number))
         self._seams.add(number, self._between(_joined(back, forward), ends))
         self.grow()
+
+    def _on_locus(self, state: State) -> bool:
+        """Whether a point is a centre of curvature of a face that is touched from it."""
+        for number in state.sites:
+            site = self._index.sites[number]
+            if site.kind is SiteKind.FACE:
+                face = self._boundary.faces[site.index]
+                carrier = self._boundary.carriers[face.carrier]
+                gap = reflexive_gap(carrier, face.outward, state.point[None])
+                if float(gap[0]) <= LOCUS * self._size:
+                    return True
+        return False
 
     def _trace(self, start: State) -> Traced:
         return self._tracer.trace(start, lambda point: self._known_node(point) is not None)

@@ -48,7 +48,6 @@ LONG = {
 UNFINISHED = {
     "netgen/period.geo": "curves cross in a footprint",
     "netgen/twocyl.geo": "an edge's sheet with itself that has no plane of symmetry",
-    "square cylinder": "its axis has no length, and no seam either",
     "equal tee": "two cylinders of one radius",
     "unequal tee": "trim surface of the edge with itself",
 }
