@@ -32,9 +32,13 @@ def contains(solid: Solid, points: Array) -> Bools:
                 inside &= carrier.signed_distance(points) < 0
             return inside
         case Union():
-            return np.any([contains(p, points) for p in solid.parts] or [[False]], axis=0)
+            return np.any(
+                [contains(p, points) for p in solid.parts] or [np.zeros(len(points), bool)], axis=0
+            )
         case Intersection():
-            return np.all([contains(p, points) for p in solid.parts] or [[True]], axis=0)
+            return np.all(
+                [contains(p, points) for p in solid.parts] or [np.ones(len(points), bool)], axis=0
+            )
         case Difference():
             return contains(solid.base, points) & ~contains(solid.tool, points)
         case Complement():

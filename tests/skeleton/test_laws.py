@@ -95,9 +95,11 @@ def test_a_thin_wall_needs_little_memory() -> None:
         " sum(len(p.triangles) for p in block.skeleton.complex.patches),"
         " resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
-    )
+    for _ in range(2):
+        # the first process may have to compile kernels, which takes memory of its own
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT
+        )
     count, diagonal, radius, triangles, kilobytes = map(float, done.stdout.split())
     assert count == 1
     assert radius == pytest.approx(diagonal / 2000, rel=1e-9)
