@@ -94,9 +94,10 @@ def skeleton(
 
 
 class _Attempt:
+    """One try at a skeleton, with seams looked for from `samples` boundary points."""
+
     def __init__(self, geometry: Geometry, tolerance: float, samples: int, tell: Progress) -> None:
         self._geometry, self._relative, self._samples = geometry, tolerance, samples
-        self._tolerance = tolerance * geometry.diagonal
         self._tell = tell
 
     def result(self) -> tuple[Skeleton | None, list[str]]:

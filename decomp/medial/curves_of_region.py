@@ -59,13 +59,13 @@ def _runs(seam: Seam) -> list[tuple[tuple[int, ...], Array]]:
 
 
 def _seam_piece(incidence: Incidence, sites: tuple[int, ...], points: Array) -> CurvePiece:
-    feet = _feet(incidence, sites, points)
+    feet = incidence.feet(sites, points)
     curve = SeamCurve(incidence, sites, points, feet)
     while len(points) < 4:
         points = _denser(curve, points)
     k = len(points) // 2
     middle = points[k]
-    at = _feet(incidence, sites, middle[None])[0]
+    at = incidence.feet(sites, middle[None])[0]
     contacts = []
     for site, foot in zip(sites, at, strict=True):
         contacts.append(incidence.touched(site, foot, (middle - foot) / float(norm(middle - foot))))
@@ -77,22 +77,6 @@ def _denser(curve: SeamCurve, points: Array) -> Array:
     result = np.empty((2 * len(points) - 1, 3))
     result[::2], result[1::2] = points, middle
     return result
-
-
-def _feet(incidence: Incidence, sites: tuple[int, ...], points: Array) -> Array:
-    """Feet (k, m, 3) of points on each site."""
-    feet = np.empty((len(points), len(sites), 3))
-    for column, site in enumerate(sites):
-        which: Ints = np.full(len(points), site, dtype=np.int64)
-        guess = points
-        it = incidence.sites[site]
-        if it.kind is SiteKind.EDGE:
-            samples = incidence.boundary.edges[it.index].samples
-            gap = ((points[:, None] - samples[None]) ** 2).sum(axis=2)
-            guess = samples[np.argmin(gap, axis=1)]
-        field = site_fields(incidence.boundary, incidence.sites, which, points, guess)
-        feet[:, column] = field.foot
-    return feet
 
 
 @dataclass(frozen=True, eq=False)

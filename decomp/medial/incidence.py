@@ -16,8 +16,8 @@ import numpy as np
 
 from decomp.boundary.topology import Convexity, Edge, RegionBoundary
 from decomp.sites.site import Site, SiteKind
-from decomp.tracing.fields import edge_foot
-from decomp.vectors import Array, cross, dot, norm
+from decomp.tracing.fields import edge_foot, site_fields
+from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
 NEAR = 1e-8
 """Feet nearer to an edge or vertex than this part of the region's diagonal are on it."""
@@ -69,6 +69,19 @@ class Incidence:
         curve = self.boundary.edges[edge].curve
         along = curve.derivative(curve.parameter(point))
         return np.asarray(along / norm(along))
+
+    def feet(self, sites: Sequence[int], points: Array) -> Array:
+        """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest samples."""
+        found = np.empty((len(points), len(sites), 3))
+        for column, site in enumerate(sites):
+            which = np.full(len(points), site, dtype=np.int64)
+            it = self.sites[site]
+            guess = points
+            if it.kind is SiteKind.EDGE:
+                samples = self.boundary.edges[it.index].samples
+                guess = samples[nearest_rows(samples, points)]
+            found[:, column] = site_fields(self.boundary, self.sites, which, points, guess).foot
+        return found
 
     def touched(self, site: int, foot: Array, direction: Array) -> tuple[int, ...]:
         """All sites (in order) that are touched at a foot of `site` from a direction, both (3,)."""

@@ -33,7 +33,6 @@ from decomp.medial.unrolled import unrolled
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing.balls import Balls, inscribed_balls
-from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
 TESTS = 7
@@ -159,7 +158,7 @@ class SheetMaker:
         segments = segments_of(lines)
         used = np.unique(np.concatenate([segments.ravel(), np.array(isolated, dtype=np.int64)]))
         points = self._points[used]
-        feet = self._feet(pair, points)
+        feet = self._incidence.feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
         uv, domain, column = self._drawn(pair, points, feet, surface)
         draft = _Draft(pair, used, points, uv, np.searchsorted(used, segments), domain, column)
@@ -264,7 +263,10 @@ class SheetMaker:
         inner = len(draft.used)
         if len(draft.points) > inner:
             surface = SheetSurface(
-                self._incidence, draft.pair, draft.points, self._feet(draft.pair, draft.points)
+                self._incidence,
+                draft.pair,
+                draft.points,
+                self._incidence.feet(draft.pair, draft.points),
             )
         numbers = np.full(len(draft.points), -1, dtype=np.int64)
         numbers[:inner] = draft.used
@@ -278,20 +280,6 @@ class SheetMaker:
             oriented = self._oriented(surface, draft.points, triangles)
             parts.append(SheetPart(draft.pair, surface, numbers[oriented]))
         return parts
-
-    def _feet(self, pair: tuple[int, int], points: Array) -> Array:
-        feet = np.empty((len(points), 2, 3))
-        for column, site in enumerate(pair):
-            which: Ints = np.full(len(points), site, dtype=np.int64)
-            it = self._incidence.sites[site]
-            guess = points
-            if it.kind is SiteKind.EDGE:
-                samples = self._boundary.edges[it.index].samples
-                gap = ((points[:, None] - samples[None]) ** 2).sum(axis=2)
-                guess = samples[np.argmin(gap, axis=1)]
-            field = site_fields(self._boundary, self._incidence.sites, which, points, guess)
-            feet[:, column] = field.foot
-        return feet
 
     def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
         """Plane coordinates of points that all lie in a plane."""
@@ -413,7 +401,7 @@ class SheetMaker:
         moved, good = surface.try_place(near)
         found = self._index.nearest(moved)
         which: Ints = np.tile(np.array(pair), (len(moved), 1))
-        feet = self._feet(pair, moved)
+        feet = self._incidence.feet(pair, moved)
         reach = norm(moved - feet[:, 0])
         slack = 1e-9 * self._size
         good = good & (found.region == self._incidence.region)
