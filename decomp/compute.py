@@ -27,7 +27,7 @@ from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
-from decomp.medial.assembly import BoundaryVertices, RegionAssembler, RegionParts, owners
+from decomp.medial.assembly import RegionAssembler, RegionParts
 from decomp.medial.region_curves import RegionCurves, region_curves
 from decomp.medial.result import (
     Junction,
@@ -39,6 +39,7 @@ from decomp.medial.result import (
     SkeletonLine,
 )
 from decomp.medial.sheets import CrossingError, MissingCurveError, SheetPart
+from decomp.medial.trim_maker import BoundaryVertices, owners
 from decomp.sites.site import SiteKind
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, cross, norm

@@ -10,16 +10,15 @@ from functools import partial
 import numpy as np
 from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
-from decomp.carriers.reflexive import inner_radius, reflexive_gap
+from decomp.carriers.reflexive import inner_radius
 from decomp.complex.model import LineKind
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.reflexive import ReflexivePart
-from decomp.medial.trims import TrimPiece, TrimScanner, solve_radius
+from decomp.medial.trims import TrimPiece, TrimScanner, on_locus, solve_radius
 from decomp.sites import SiteIndex
-from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.graph import Seam
@@ -160,7 +159,7 @@ def _trim_piece(
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
     balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
-    carrier = _on_locus(incidence, over.sites, balls.centre[len(s) // 2], size)
+    carrier = _locus_face(incidence, over.sites, balls.centre[len(s) // 2])
     if carrier is not None:
         return partial(_locus_radius, incidence, over, carrier)
     far = trim.far[0]
@@ -187,18 +186,11 @@ def _trim_piece(
     return CurvePiece(LineKind.TRIM, contacts, curve, points, at)
 
 
-def _on_locus(
-    incidence: Incidence, sites: tuple[int, int], point: Array, size: float
-) -> int | None:
+def _locus_face(incidence: Incidence, sites: tuple[int, int], point: Array) -> int | None:
     """The face that is touched whose carrier has a centre of curvature in a ball's centre."""
     for site in sites:
-        it = incidence.sites[site]
-        if it.kind is SiteKind.FACE:
-            face = incidence.boundary.faces[it.index]
-            carrier = incidence.boundary.carriers[face.carrier]
-            gap = reflexive_gap(carrier, face.outward, point[None])
-            if float(gap[0]) <= 1e-8 * size:
-                return it.index
+        if on_locus(incidence, (site,), point[None])[0]:
+            return incidence.sites[site].index
     return None
 
 

@@ -1,0 +1,252 @@
+"""Making the trim surfaces of a region: strips between its edges and the trims over them."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.cells.partition import TrimSurface
+from decomp.complex.model import Line, LineKind, Patch, PatchKind
+from decomp.errors import GeometryError
+from decomp.medial.curve_elements import RayCurve
+from decomp.medial.curves_of_region import LocusRun
+from decomp.medial.incidence import Incidence
+from decomp.medial.normal_curves import EdgeNormals, NormalCurve, VertexNormals
+from decomp.medial.region_curves import RegionCurves
+from decomp.medial.trim_surfaces import RuledSurface, strip
+from decomp.vectors import Array, Ints, cross, dot, norm, place
+
+
+@dataclass(frozen=True, eq=False)
+class BoundaryVertices:
+    """Where a region's boundary is in the complex.
+
+    Args:
+        points: (n, 3) all points of the boundary complex; they are the first of the whole.
+        of_vertex: the point of each of the region's vertices.
+        of_edge: for each edge its polyline of points, along the edge; closed ones repeat the first.
+        of_face: triangles (m, 3) of each face.
+    """
+
+    points: Array
+    of_vertex: Sequence[int]
+    of_edge: Sequence[Ints]
+    of_face: Sequence[Ints]
+
+
+def owners(curves: RegionCurves) -> dict[int, int]:
+    """The face that owns each site: an edge's or vertex's is one of its faces."""
+    incidence = curves.incidence
+    boundary = incidence.boundary
+    owner = {site: face for face, site in incidence.face_site.items()}
+    for edge, site in incidence.edge_site.items():
+        owner[site] = boundary.edges[edge].faces[0]
+    for vertex, site in incidence.vertex_site.items():
+        edges = [e for e in boundary.vertices[vertex].edges if e in incidence.edge_site]
+        faces = boundary.vertices[vertex].faces
+        owner[site] = boundary.edges[edges[0]].faces[0] if edges else faces[0]
+    return owner
+
+
+class TrimMaker:
+    """Makes the trim surfaces between the cells of different faces."""
+
+    def __init__(
+        self, curves: RegionCurves, boundary: BoundaryVertices, points: Array, lines: Sequence[Ints]
+    ) -> None:
+        self._curves, self._boundary = curves, boundary
+        self._points, self._lines = points, lines
+        self._owner = owners(curves)
+        self._rulings: set[tuple[int, int]] = set()
+        self._size = curves.incidence.boundary.diagonal
+
+    def surfaces(self) -> list[tuple[TrimSurface, Patch]]:
+        """Each with the faces on its two sides; the patch number is to be filled in."""
+        found = []
+        for number, curve in enumerate(self._curves.over):
+            one, two = (self._owner[site] for site in curve.sites)
+            if one == two:
+                continue
+            upper, upper_s = self._upper(number, curve)
+            lower = self._lower(curve)
+            triangles = self._strip(curve, lower, upper, upper_s)
+            if not curve.closed:
+                for k in (0, -1):
+                    a, b = int(lower[k]), int(upper[k])
+                    self._rulings.add((min(a, b), max(a, b)))
+            if len(triangles):
+                found.append(self._patch(curve, triangles, upper, upper_s))
+        return found
+
+    def rulings(self) -> list[Line]:
+        """The normals in which the surfaces end, as far as they are no other lines."""
+        known = {
+            (int(min(side)), int(max(side)))
+            for line in self._lines
+            for side in itertools.pairwise(line)
+        }
+        found = []
+        for a, b in sorted(self._rulings - known):
+            if a != b:
+                way = self._points[b] - self._points[a]
+                curve = RayCurve(self._points[a], way / float(norm(way)))
+                found.append(Line(LineKind.TRIM, curve, np.array([a, b], dtype=np.int64)))
+        return found
+
+    def _lower(self, curve: NormalCurve) -> Ints:
+        if isinstance(curve, EdgeNormals):
+            edges = self._curves.incidence.boundary.edges
+            number = next(k for k, edge in enumerate(edges) if edge is curve.edge)
+            return self._boundary.of_edge[number]
+        assert isinstance(curve, VertexNormals)
+        vertex = int(np.argmin(norm(self._curves.nodes[: self._curves.vertices] - curve.vertex)))
+        return np.array([self._boundary.of_vertex[vertex]], dtype=np.int64)
+
+    def _upper(self, number: int, curve: NormalCurve) -> tuple[Ints, Array]:
+        """The trim over a normal curve as one polyline in the sense of its parameter."""
+        runs = []
+        for piece, line in zip(self._curves.pieces, self._lines, strict=True):
+            if number in piece.over:
+                s = self._along(curve, self._points[line])
+                if s[0] > s[-1]:
+                    line, s = line[::-1], s[::-1]
+                runs.append((line, s))
+        runs += [self._on_locus(run) for run in self._curves.runs if run.over == number]
+        runs.sort(key=lambda run: float(run[1].mean()))
+        lines, parameters = [runs[0][0]], [runs[0][1]]
+        for line, s in runs[1:]:
+            if line[0] != lines[-1][-1]:
+                where = place(self._points[line[0]])
+                raise GeometryError(f"the trim near {where} has a gap")
+            lines.append(line[1:])
+            parameters.append(s[1:])
+        return np.concatenate(lines), np.concatenate(parameters)
+
+    def _on_locus(self, run: LocusRun) -> tuple[Ints, Array]:
+        """The polyline along a reflexive locus from the first to the last centre of a run."""
+        ends = [self._vertex_at(run.points[k]) for k in (0, -1)]
+        if run.resting:
+            return np.array(ends), run.s[[0, -1]]
+        middle = run.points[len(run.points) // 2]
+        tree = cKDTree(run.points)
+        reach = float(norm(np.diff(run.points, axis=0)).max())
+        line = [ends[0]]
+        while line[-1] != ends[1]:
+            step = self._next_on_locus(line, tree, reach)
+            if step is None:
+                raise GeometryError(f"no reflexive curve leads past {place(middle)}")
+            line.extend(step)
+        vertices = np.array(line, dtype=np.int64)
+        return vertices, run.s[tree.query(self._points[vertices])[1]]
+
+    def _next_on_locus(self, line: list[int], tree: cKDTree, reach: float) -> list[int] | None:
+        """The vertices of the reflexive piece that goes on from a polyline beside known centres."""
+        for piece, vertices in zip(self._curves.pieces, self._lines, strict=True):
+            if piece.kind is not LineKind.REFLEXIVE:
+                continue
+            if tree.query(piece.middle)[0] > reach:
+                continue
+            for way in (vertices, vertices[::-1]):
+                if way[0] == line[-1] and (len(line) < 2 or way[1] != line[-2]):
+                    return [int(v) for v in way[1:]]
+        return None
+
+    def _vertex_at(self, point: Array) -> int:
+        gaps = norm(self._points - point)
+        number = int(np.argmin(gaps))
+        if float(gaps[number]) > 1e-6 * self._size:
+            raise GeometryError(f"no reflexive curve leads to {place(point)}")
+        return number
+
+    def _along(self, curve: NormalCurve, points: Array) -> Array:
+        """Parameters of the vertices of a polyline, made continuous."""
+        s = np.array(curve.parameter(points))
+        if curve.closed:
+            period = curve.end - curve.start
+            turn = np.diff(s)
+            s[1:] -= period * np.cumsum(np.round(turn / period))
+        return s
+
+    def _strip(self, curve: NormalCurve, lower: Ints, upper: Ints, upper_s: Array) -> Ints:
+        if len(lower) == 1:
+            return strip(lower, np.zeros(1), upper, upper_s)
+        lower_s = self._along(curve, self._points[lower])
+        if curve.closed:
+            return self._ring(curve, lower, lower_s, upper, upper_s)
+        return strip(lower, lower_s, upper, upper_s)
+
+    def _ring(
+        self, curve: NormalCurve, lower: Ints, lower_s: Array, upper: Ints, upper_s: Array
+    ) -> Ints:
+        """A strip that closes: the upper loop is turned to start beside the lower one's start."""
+        period = curve.end - curve.start
+        if lower_s[-1] < lower_s[0]:
+            lower, lower_s = lower[::-1], lower_s[::-1]
+        if (upper == upper[0]).all():
+            return strip(lower, lower_s, upper[:1], lower_s[:1])
+        body, s = upper[:-1], upper_s[:-1]
+        s = lower_s[0] + np.mod(s - lower_s[0], period)
+        order = np.argsort(s, kind="stable")
+        body, s = body[order], s[order]
+        return strip(lower, lower_s, np.append(body, body[0]), np.append(s, s[0] + period))
+
+    def _patch(
+        self, curve: NormalCurve, triangles: Ints, upper: Ints, upper_s: Array
+    ) -> tuple[TrimSurface, Patch]:
+        """Orient: normals point from the higher-dimensional site's side to the other's."""
+        near, far = curve.sites[1], curve.sites[0]
+        s = np.linspace(curve.start, curve.end, 257)
+        height = np.interp(s, upper_s, norm(self._points[upper] - curve.feet(upper_s)))
+        surface = RuledSurface(curve, self._sense(curve), s, height)
+        corners = self._points[triangles]
+        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        wanted = surface.normal(corners.mean(axis=1))
+        oriented = triangles[:, ::-1] if float(dot(normals, wanted).sum()) < 0 else triangles
+        faces = (self._owner[near], self._owner[far])
+        return TrimSurface(-1, faces), Patch(PatchKind.TRIM, surface, oriented)
+
+    def _sense(self, curve: NormalCurve) -> float:
+        """The sign that makes normals point from the second site's side to the first's."""
+        middle = np.array([(curve.start + curve.end) / 2])
+        feet, ways = curve.feet(middle), curve.directions(middle)
+        h = 1e-4 * (curve.end - curve.start)
+        either = curve.feet(middle + h) - curve.feet(middle - h)
+        if isinstance(curve, VertexNormals):
+            either = curve.directions(middle + h) - curve.directions(middle - h)
+        up = cross(either, ways)[0]
+        away = self._off_second(curve, feet[0])
+        return 1.0 if float(up @ away) > 0 else -1.0
+
+    def _off_second(self, curve: NormalCurve, foot: Array) -> Array:
+        """A direction at a foot that leads away from the second site."""
+        incidence = self._curves.incidence
+        if isinstance(curve, VertexNormals):
+            # the edge leaves the vertex: away from it is against the edge
+            edge = incidence.sites[curve.sites[1]].index
+            samples = incidence.boundary.edges[edge].samples
+            ends = samples[0], samples[-1]
+            other = ends[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else ends[0]
+            near = samples[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else samples[-2]
+            del other
+            return np.asarray(foot - near)
+        assert isinstance(curve, EdgeNormals)
+        second = incidence.sites[curve.sites[1]].index
+        edge = next(k for k, e in enumerate(incidence.boundary.edges) if e is curve.edge)
+        return _out_of_face(incidence, second, edge, foot)
+
+
+def _out_of_face(incidence: Incidence, face: int, edge: int, foot: Array) -> Array:
+    """The direction in a face's tangent plane that leaves it across one of its edges."""
+    boundary = incidence.boundary
+    outward = -incidence.inward(face, foot[None])[0]
+    tangent = incidence.tangent(edge, foot)
+    for loop in boundary.faces[face].loops:
+        for number, sense in loop:
+            if number == edge:
+                # the face lies on the left of its loop, seen from outside
+                return np.asarray(-cross(outward, sense * tangent))
+    raise GeometryError(f"the edge at {place(foot)} is not one of its face's")
