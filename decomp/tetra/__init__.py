@@ -1,0 +1,1 @@
+"""Tetrahedral meshes: the skeleton complex through TetWild, exact again, with a name on everything."""
