@@ -1,1 +1,1 @@
-"""Tetrahedral meshes: the skeleton complex through TetWild, exact again, with a name on everything."""
+"""Tetrahedral meshes: from the skeleton complex by TetWild, exact again, named throughout."""
