@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +28,7 @@ from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
 from decomp.medial.assembly import RegionAssembler, RegionParts
+from decomp.medial.radius_range import SheetRadius, range_along
 from decomp.medial.region_curves import RegionCurves, region_curves
 from decomp.medial.result import (
     Junction,
@@ -253,10 +254,11 @@ class _Whole:
         curves, parts = self._curves[number], self._parts[number]
         boundary = self._geometry.regions[number]
         sheets = tuple(
-            self._sheet(curves, part, patch, radius)
+            self._sheet(number, part, patch, radius)
             for part, patch in zip(parts.sheets, self._sheet_patch[number], strict=True)
         )
         lines = self._lines(number, sheets)
+        sheets = self._with_extrema(number, sheets, [line for _, line in lines], radius)
         reflexive = self._reflexive(number)
         face_sides = self._surface.face_sides(number, len(boundary.faces))
         trims = self._trims[number]
@@ -295,18 +297,37 @@ class _Whole:
             found,
         )
 
-    def _sheet(self, curves: RegionCurves, part: SheetPart, patch: int, radius: Array) -> Sheet:
+    def _sheet(self, number: int, part: SheetPart, patch: int, radius: Array) -> Sheet:
         triangles = self.complex.patches[patch].triangles
         corners = self.complex.points[triangles]
         doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-        used = radius[triangles]
+        queries = region_queries(self._geometry.index, number)
+        over = SheetRadius(queries, part.sites, part.surface)
         return Sheet(
             part.sites,
-            _parity(curves, part.sites),
+            _parity(self._curves[number], part.sites),
             patch,
             float(doubled.sum() / 2),
-            (float(used.min()), float(used.max())),
+            over.range(self.complex.points, triangles, radius),
         )
+
+    def _with_extrema(
+        self,
+        number: int,
+        sheets: tuple[Sheet, ...],
+        lines: list[SkeletonLine],
+        radius: Array,
+    ) -> tuple[Sheet, ...]:
+        """The sheets with least and greatest radius widened by those along their borders."""
+        queries = region_queries(self._geometry.index, number)
+        ranges = [sheet.radius for sheet in sheets]
+        for line in lines:
+            drawn = self.complex.lines[line.line]
+            own = self.complex.points[drawn.vertices], radius[drawn.vertices]
+            low, high = range_along(queries, drawn.curve, *own)
+            for k in line.sheets:
+                ranges[k] = (min(ranges[k][0], low), max(ranges[k][1], high))
+        return tuple(replace(sheet, radius=own) for sheet, own in zip(sheets, ranges, strict=True))
 
     def _lines(self, number: int, sheets: tuple[Sheet, ...]) -> list[tuple[LineKind, SkeletonLine]]:
         """Seams, trims and rims, by the number of sheets that meet along them."""

@@ -23,7 +23,7 @@ FEW, MANY = 8, 64
 
 
 class RegionQueries:
-    """Queries in one region.
+    """Queries in one region; `size` is its diagonal.
 
     Args:
         index: of the model.
@@ -35,7 +35,7 @@ class RegionQueries:
         self._part, self._region = part, region
         self._faces = len(part.boundary.faces)
         self._occupancy = private(index.occupancy)
-        self._size = part.boundary.diagonal
+        self.size = part.boundary.diagonal
 
     @property
     def probe(self) -> Probe:
@@ -47,7 +47,7 @@ class RegionQueries:
             part.candidates,
             part.boxes,
             self._region,
-            self._size,
+            self.size,
         )
 
     def nearest(self, points: Array) -> Nearest:
