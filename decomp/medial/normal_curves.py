@@ -15,20 +15,22 @@ from functools import cached_property
 import numpy as np
 
 from decomp.boundary.topology import Convexity, Edge
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.incidence import ANGLE, Incidence, angle_between
+from decomp.tolerance import TOLERANCE
 from decomp.tracing.fields import edge_foot
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
-LOCUS = 1e-7
-"""Points nearer to a reflexive locus than this part of the size lie on it."""
-BESIDE = 0.05
-"""Points nearer to a reflexive locus than this part of the normal's length are close to it."""
-STRAYED = 0.3
-"""Feet farther from the edge than this part of the normal's length are not those looked for."""
+ON = 1e-6
+"""Points nearer to a normal than this part of the size count as on it, however many pass them."""
+REACH = 0.05
+"""The longest step along an edge, as a part of the size."""
+APPROACHES = 30
+"""Steps of the search for the nearest normal."""
+FLAT = 1e-9
+"""Points that move less than this part of a step along the edge are where normals meet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,45 +103,97 @@ class EdgeNormals(NormalCurve):
         return np.asarray(t)
 
     def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
-        boundary = self.incidence.boundary
-        # points of the surface have their feet on the face's carrier on the edge
-        face = boundary.faces[self.face]
-        carrier = boundary.carriers[face.carrier]
-        beside = carrier.foot(points)
-        feet = edge_foot(boundary, self.edge, beside, beside)
-        gap = reflexive_gap(carrier, face.outward, points)
-        strayed = norm(feet - beside) > STRAYED * norm(points - beside)
-        # close to the reflexive locus a point's own place along it tells more than its direction
-        close = gap <= BESIDE * norm(points - beside)
-        feet[close] = edge_foot(boundary, self.edge, points[close], feet[close])
-        # on it the carrier has many feet, of which only a known one helps
-        lost = (gap <= LOCUS * boundary.diagonal) | strayed
-        feet[lost] = edge_foot(boundary, self.edge, points[lost], near[lost])
-        ways = self.incidence.inward(self.face, feet)
+        feet = self._nearest_rulings(points, near)
+        turn = self._turn(feet)
 
         def change(height: Array) -> Array:
-            a, b = (boundary.carriers[k].normal(feet) for k in self.edge.carriers)
-            if isinstance(self.edge.curve, Line):
-                tangent = np.broadcast_to(self.edge.curve.direction, feet.shape)
-            elif isinstance(self.edge.curve, Circle):
-                axis = cross(self.edge.curve.x, self.edge.curve.y)
-                tangent = cross(axis, feet - self.edge.curve.centre) / self.edge.curve.radius
-            else:
-                tangent = cross(a, b)
-                tangent = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
-                # in the sense of the parameter
-                sense = dot(tangent, self._tangents(feet))
-                tangent = np.where(sense[:, None] < 0, -tangent, tangent)
-            h = 1e-6 * boundary.diagonal
-            ahead = self.incidence.inward(self.face, feet + h * tangent)
-            behind = self.incidence.inward(self.face, feet - h * tangent)
-            turn = (ahead - behind) / (2 * h)
-            along = tangent + height[:, None] * turn
-            flat = norm(along) <= 1e-9
-            along[flat] = turn[flat]
-            return np.asarray(along)
+            along = self._movement(feet, turn, height)
+            flat = norm(along) <= FLAT
+            along[flat] = turn[1][flat]
+            return along
 
-        return feet, ways, change
+        return feet, self.incidence.inward(self.face, feet), change
+
+    def _nearest_rulings(self, points: Array, near: Array) -> Array:
+        """Feet (k, 3) of the normals that pass closest to points, by Gauss and Newton.
+
+        Each point starts from its carrier's foot and, where that does not lead onto a normal, from
+        a known foot.
+        """
+        boundary = self.incidence.boundary
+        carrier = boundary.carriers[boundary.faces[self.face].carrier]
+        beside = carrier.foot(points)
+        feet = edge_foot(boundary, self.edge, beside, beside)
+        feet, off = self._approach(points, feet)
+        rows = np.flatnonzero(off > ON * boundary.diagonal)
+        if len(rows):
+            others, gap = self._approach(points[rows], near[rows])
+            better = gap < off[rows]
+            feet[rows[better]] = others[better]
+        return feet
+
+    def _approach(self, points: Array, feet: Array) -> tuple[Array, Array]:
+        """Feet of normals closer to points (k, 3), and how far (k,) these pass."""
+        size = self.incidence.boundary.diagonal
+        feet = np.array(feet)
+        off, height = self._off(points, feet)
+        gap = norm(off)
+        rows = np.flatnonzero(gap > TOLERANCE * size)
+        reach = np.full(len(points), REACH * size)
+        for _ in range(APPROACHES):
+            if not len(rows):
+                break
+            turn = self._turn(feet[rows])
+            along = self._movement(feet[rows], turn, height[rows])
+            square = dot(along, along)
+            step = dot(off[rows], along) / np.maximum(square, FLAT**2)
+            limited = np.clip(step, -reach[rows], reach[rows])
+            ahead = feet[rows] + limited[:, None] * turn[0]
+            tried = edge_foot(self.incidence.boundary, self.edge, ahead, ahead)
+            away, up = self._off(points[rows], tried)
+            closer = norm(away) < gap[rows]
+            kept = rows[closer]
+            gain = gap[kept] - norm(away)[closer]
+            feet[kept], off[kept], height[kept] = tried[closer], away[closer], up[closer]
+            gap[kept] = norm(off[kept])
+            reach[rows[~closer]] = np.abs(limited[~closer]) / 4
+            going = reach[rows] > TOLERANCE * size
+            going[closer] &= gain > TOLERANCE * size
+            rows = rows[going]
+        return feet, gap
+
+    def _off(self, points: Array, feet: Array) -> tuple[Array, Array]:
+        """What leads (k, 3) from the normals at feet to points across, and the height (k,)."""
+        ways = self.incidence.inward(self.face, feet)
+        height = dot(points - feet, ways)
+        return points - feet - height[:, None] * ways, height
+
+    def _turn(self, feet: Array) -> tuple[Array, Array]:
+        """Unit tangents (k, 3) of the edge, and how the normals change along it, by length."""
+        boundary = self.incidence.boundary
+        if isinstance(self.edge.curve, Line):
+            tangent = np.broadcast_to(self.edge.curve.direction, feet.shape)
+        elif isinstance(self.edge.curve, Circle):
+            axis = cross(self.edge.curve.x, self.edge.curve.y)
+            tangent = cross(axis, feet - self.edge.curve.centre) / self.edge.curve.radius
+        else:
+            a, b = (boundary.carriers[k].normal(feet) for k in self.edge.carriers)
+            tangent = cross(a, b)
+            tangent = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
+            # in the sense of the parameter
+            sense = dot(tangent, self._tangents(feet))
+            tangent = np.where(sense[:, None] < 0, -tangent, tangent)
+        h = 1e-6 * boundary.diagonal
+        ahead = self.incidence.inward(self.face, feet + h * tangent)
+        behind = self.incidence.inward(self.face, feet - h * tangent)
+        return tangent, (ahead - behind) / (2 * h)
+
+    def _movement(self, feet: Array, turn: tuple[Array, Array], height: Array) -> Array:
+        """How points (k, 3) at heights (k,) above feet move along the edge, across the normals."""
+        tangent, change = turn
+        ways = self.incidence.inward(self.face, feet)
+        along = tangent + height[:, None] * change
+        return np.asarray(along - dot(along, ways)[:, None] * ways)
 
     def _tangents(self, feet: Array) -> Array:
         """Directions of the chords of known samples beside feet (k, 3)."""
