@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from decomp.vectors import Array, Ints
+
+if TYPE_CHECKING:
+    import meshio  # type: ignore[import-untyped]
+    import pyvista
+    import skfem  # type: ignore[import-untyped]
 
 
 class GroupKind(Enum):
@@ -81,13 +88,48 @@ class TetMesh:
         """1 for straight, 2 for quadratic elements."""
         return 1 if self.tets.shape[1] == 4 else 2
 
-    def group(self, name: str) -> Group:
-        """The group of a name.
+    def group(self, name: str, dimension: int | None = None) -> Group:
+        """The group of a name; without a dimension (2 or 3) a volume comes before a surface.
 
         Raises:
             KeyError: there is none.
         """
         for group in self.groups:
-            if group.name == name:
+            if group.name == name and dimension in (None, group.dimension):
                 return group
         raise KeyError(name)
+
+    def write(self, path: str | Path, *, text: bool = False, version: str = "4.1") -> None:
+        """Write to a file, whole or not at all.
+
+        Args:
+            path: ends in .msh, .vtu, .xdmf, .inp or .mesh.
+            text: write Gmsh's format 4.1 as text, not binary.
+            version: of Gmsh's format, 4.1 or 2.2 (always text).
+
+        Raises:
+            InputError: the suffix or the version is unknown.
+            FileError: the file cannot be written.
+        """
+        from decomp.output.mesh import write
+
+        write(self, path, text=text, version=version)
+
+    def to_meshio(self) -> meshio.Mesh:
+        """As meshio reads it from a .msh file (`decomp.tetra.convert.to_meshio`)."""
+        from decomp.tetra.convert import to_meshio
+
+        return to_meshio(self)
+
+    def to_pyvista(self) -> pyvista.UnstructuredGrid:
+        """The tetrahedra with `group` and `region` (`decomp.tetra.convert.to_pyvista`)."""
+        from decomp.tetra.convert import to_pyvista
+
+        grid: pyvista.UnstructuredGrid = to_pyvista(self)
+        return grid
+
+    def to_skfem(self) -> skfem.Mesh:
+        """With named subdomains and boundaries (`decomp.tetra.convert.to_skfem`)."""
+        from decomp.tetra.convert import to_skfem
+
+        return to_skfem(self)

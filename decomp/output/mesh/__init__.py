@@ -1,0 +1,72 @@
+"""Tetrahedral meshes to files. The suffix of a file's name tells its format.
+
+The writers are loaded when they are first used.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from decomp.errors import InputError
+
+if TYPE_CHECKING:
+    from decomp.tetra.mesh import TetMesh
+
+SUFFIXES = (".msh", ".vtu", ".xdmf", ".inp", ".mesh")
+VERSIONS = ("4.1", "2.2")
+
+
+def suffix_of(path: str | Path) -> str:
+    """The suffix of a file that `write` can write.
+
+    Raises:
+        InputError: it is none of `SUFFIXES`.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        said = f"{suffix!r} is unknown" if suffix else "there is none"
+        raise InputError(f"{path}: {said} as a suffix for meshes; use {', '.join(SUFFIXES)}")
+    return suffix
+
+
+def encoded(mesh: TetMesh, suffix: str, *, text: bool = False, version: str = "4.1") -> bytes:
+    """The contents of a file with a suffix of `SUFFIXES`; the options are those of `write`.
+
+    Raises:
+        DecompError: the format is written by a library that is not installed.
+    """
+    from decomp.output.mesh import inp, medit, msh22, msh41, vtu, xdmf
+
+    if suffix == ".msh" and version == "4.1":
+        return msh41.encoded(mesh, text=text)
+    modules = {
+        ".msh": msh22.encoded,
+        ".vtu": vtu.encoded,
+        ".xdmf": xdmf.encoded,
+        ".inp": inp.encoded,
+        ".mesh": medit.encoded,
+    }
+    return modules[suffix](mesh)
+
+
+def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str = "4.1") -> None:
+    """Write a mesh to a file, whole or not at all.
+
+    Args:
+        mesh: to write.
+        path: ends in one of `SUFFIXES`.
+        text: write Gmsh's format 4.1 as text; other formats are as they are.
+        version: of Gmsh's format, one of `VERSIONS`; 2.2 is always text.
+
+    Raises:
+        InputError: the suffix or the version is unknown.
+        FileError: the file cannot be written.
+    """
+    from decomp.output.whole_file import check_target, write_whole
+
+    suffix = suffix_of(path)
+    if version not in VERSIONS:
+        raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(VERSIONS)}")
+    check_target(path)
+    write_whole(path, encoded(mesh, suffix, text=text, version=version))

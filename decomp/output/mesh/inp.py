@@ -1,0 +1,101 @@
+"""Abaqus and CalculiX input (.inp): nodes, C3D4 or C3D10 elements, sets and surfaces by name.
+
+Each volume is an element set, and so is each region of several cells. Each surface is a node set
+(*NSET) and, for loads and contact, a list of element faces (*SURFACE), of the elements that its
+normals leave. Names are made valid: letters, digits and `_`, in capitals, at most 80, each once;
+comments at the file's head tell which is which. Sections, materials and steps are for the user.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from decomp.tetra.incidence import incidence
+from decomp.tetra.mesh import Group, GroupKind, TetMesh
+from decomp.tetra.ordering import in_vtk_order
+from decomp.vectors import Ints
+
+LONGEST = 80
+PER_LINE = 12
+SIDES = (1, 2, 3, 4)
+"""Abaqus's number of each face of `incidence.FACES`: 1-2-3, 1-4-2, 2-4-3, 3-4-1."""
+
+
+def encoded(mesh: TetMesh) -> bytes:
+    """The contents of a file."""
+    volumes = [group for group in mesh.groups if group.dimension == 3]
+    surfaces = [group for group in mesh.groups if group.dimension == 2]
+    regions = _joined_regions(volumes)
+    names = valid_names([*(g.name for g in volumes), *regions, *(g.name for g in surfaces)])
+    own, rest = names[: len(volumes)], names[len(volumes) :]
+    joined, outer = rest[: len(regions)], rest[len(regions) :]
+    lines = ["*HEADING", f"{re.sub(r'[^ -~]', '_', mesh.name)}, by decomp"]
+    lines += ["** set: name in the model"]
+    named = [*(g.name for g in volumes), *regions, *(g.name for g in surfaces)]
+    lines += [f"** {short}: {name}" for short, name in zip(names, named, strict=True)]
+    lines += ["*NODE, NSET=NALL", *_nodes(mesh)]
+    kind = "C3D4" if mesh.order == 1 else "C3D10"
+    tets = in_vtk_order(mesh.tets) + 1
+    for group, name in zip(volumes, own, strict=True):
+        rows = np.flatnonzero(mesh.tet_tags == group.tag)
+        lines.append(f"*ELEMENT, TYPE={kind}, ELSET={name}")
+        lines += [
+            ", ".join(map(str, row)) for row in np.column_stack([rows + 1, tets[rows]]).tolist()
+        ]
+    lines += ["*ELSET, ELSET=EALL", *own]
+    for region, name in zip(regions, joined, strict=True):
+        lines.append(f"*ELSET, ELSET={name}")
+        lines += [n for g, n in zip(volumes, own, strict=True) if region in g.regions]
+    lines += _surfaces(mesh, surfaces, outer)
+    return ("\n".join(lines) + "\n").encode("ascii")
+
+
+def valid_names(names: Iterable[str]) -> list[str]:
+    """Names that Abaqus takes, all different."""
+    seen = {"NALL", "EALL"}
+    result = []
+    for name in names:
+        base = re.sub(r"[^A-Z0-9]+", "_", name.upper()).strip("_")
+        if not base or not base[0].isalpha():
+            base = f"G_{base}".rstrip("_")
+        short, count = base[:LONGEST], 1
+        while short in seen:
+            count += 1
+            end = f"_{count}"
+            short = base[: LONGEST - len(end)] + end
+        seen.add(short)
+        result.append(short)
+    return result
+
+
+def _joined_regions(volumes: list[Group]) -> list[str]:
+    """The regions that consist of cells."""
+    of_cells = {name for g in volumes if g.kind is GroupKind.CELL for name in g.regions}
+    return sorted(of_cells)
+
+
+def _nodes(mesh: TetMesh) -> Iterator[str]:
+    for number, (x, y, z) in enumerate(mesh.points.tolist(), 1):
+        yield f"{number}, {x!r}, {y!r}, {z!r}"
+
+
+def _surfaces(mesh: TetMesh, surfaces: list[Group], names: list[str]) -> Iterator[str]:
+    pairs = incidence(mesh.triangles, mesh.tets)
+    tags = np.where(pairs.outward > 0, mesh.triangle_tags[pairs.triangle], 0)
+    for group, name in zip(surfaces, names, strict=True):
+        nodes = np.unique(mesh.triangles[mesh.triangle_tags == group.tag])
+        yield f"*NSET, NSET={name}"
+        yield from _rows(nodes + 1)
+        faces = pairs.face[tags == group.tag]
+        yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
+        for face in faces.tolist():
+            yield f"{face // 4 + 1}, S{SIDES[face % 4]}"
+
+
+def _rows(numbers: Ints) -> Iterator[str]:
+    listed = numbers.tolist()
+    for start in range(0, len(listed), PER_LINE):
+        yield ", ".join(map(str, listed[start : start + PER_LINE]))

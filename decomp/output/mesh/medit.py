@@ -1,0 +1,35 @@
+"""Medit's format (.mesh), text, for Medit, Mmg, Gmsh and others.
+
+References are the groups' tags. The format holds no names; comments at its head tell them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from decomp.tetra.mesh import TetMesh
+from decomp.tetra.ordering import in_vtk_order
+from decomp.vectors import Ints
+
+
+def encoded(mesh: TetMesh) -> bytes:
+    """The contents of a file."""
+    end = "" if mesh.order == 1 else "P2"
+    lines = ["MeshVersionFormatted 2", "Dimension 3"]
+    for group in mesh.groups:
+        what = "Tetrahedra" if group.dimension == 3 else "Triangles"
+        lines.append(f"# {what} {group.tag}: {group.name}")
+    lines += ["Vertices", str(len(mesh.points))]
+    lines += [f"{x!r} {y!r} {z!r} 0" for x, y, z in mesh.points.tolist()]
+    lines += _elements(f"Triangles{end}", mesh.triangles, mesh.triangle_tags)
+    lines += _elements(f"Tetrahedra{end}", in_vtk_order(mesh.tets), mesh.tet_tags)
+    return ("\n".join([*lines, "End"]) + "\n").encode()
+
+
+def _elements(keyword: str, elements: Ints, tags: Ints) -> Iterator[str]:
+    yield keyword
+    yield str(len(elements))
+    for row in np.column_stack([elements + 1, tags]).tolist():
+        yield " ".join(map(str, row))

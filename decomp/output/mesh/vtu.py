@@ -1,0 +1,97 @@
+"""VTK's unstructured grids (.vtu) of tetrahedra and tagged triangles, for ParaView and PyVista.
+
+Cell data: `group` (tag, unique among triangles and among tetrahedra), `region` (index into
+`regions`) and `bc` (the input's boundary condition number, -1 for none). Point data: `unprojected`.
+Field data: `volume_names` and `volume_tags`, `surface_names` and `surface_tags`, `regions`.
+Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
+"""
+
+from __future__ import annotations
+
+import base64
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from decomp.tetra.convert import VTK_TYPES, region_names, region_numbers
+from decomp.tetra.mesh import TetMesh
+from decomp.tetra.ordering import in_vtk_order
+from decomp.vectors import Ints
+
+TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "uint8": "UInt8"}
+
+
+def encoded(mesh: TetMesh) -> bytes:
+    """The contents of a file: triangles first, then tetrahedra."""
+    blocks = [mesh.triangles, in_vtk_order(mesh.tets)]
+    widths = np.repeat([block.shape[1] for block in blocks], [len(block) for block in blocks])
+    kinds = [VTK_TYPES[block.shape[1]] for block in blocks]
+    unprojected = np.zeros(len(mesh.points), dtype=np.uint8)
+    unprojected[mesh.unprojected] = 1
+    region = np.concatenate([region_numbers(mesh, 2), region_numbers(mesh, 3)])
+    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
+    lines = [
+        '<?xml version="1.0"?>',
+        f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{order}" '
+        'header_type="UInt64">',
+        "<UnstructuredGrid>",
+        *_field_data(mesh),
+        f'<Piece NumberOfPoints="{len(mesh.points)}" NumberOfCells="{len(widths)}">',
+        "<Points>",
+        _array("Points", mesh.points),
+        "</Points>",
+        "<Cells>",
+        _array("connectivity", np.concatenate([block.reshape(-1) for block in blocks])),
+        _array("offsets", np.cumsum(widths, dtype=np.int64)),
+        _array("types", np.repeat(kinds, [len(block) for block in blocks]).astype(np.uint8)),
+        "</Cells>",
+        "<PointData>",
+        _array("unprojected", unprojected),
+        "</PointData>",
+        '<CellData Scalars="group">',
+        _array("group", np.concatenate([mesh.triangle_tags, mesh.tet_tags])),
+        _array("region", region),
+        _array("bc", np.concatenate([_conditions(mesh), np.full(len(mesh.tets), -1)])),
+        "</CellData>",
+        "</Piece>",
+        "</UnstructuredGrid>",
+        "</VTKFile>",
+    ]
+    return "\n".join(lines).encode("ascii") + b"\n"
+
+
+def _conditions(mesh: TetMesh) -> Ints:
+    """The boundary condition number of each triangle, -1 for none."""
+    known = {g.tag: g.bc for g in mesh.groups if g.dimension == 2 and g.bc is not None}
+    tags, places = np.unique(mesh.triangle_tags, return_inverse=True)
+    return np.array([known.get(int(tag), -1) for tag in tags], dtype=np.int64)[places]
+
+
+def _field_data(mesh: TetMesh) -> list[str]:
+    lines = ["<FieldData>"]
+    for dimension, what in ((3, "volume"), (2, "surface")):
+        own = [group for group in mesh.groups if group.dimension == dimension]
+        lines.append(_strings(f"{what}_names", [group.name for group in own]))
+        lines.append(_array(f"{what}_tags", np.array([g.tag for g in own], dtype=np.int64), True))
+    return [*lines, _strings("regions", region_names(mesh)), "</FieldData>"]
+
+
+def _array(name: str, values: NDArray[Any], counted: bool = False) -> str:
+    width = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
+    if counted:
+        width += f' NumberOfTuples="{len(values)}"'
+    data = np.ascontiguousarray(values).tobytes()
+    text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
+    kind = TYPES[values.dtype.name]
+    return f'<DataArray type="{kind}" Name="{name}"{width} format="binary">{text}</DataArray>'
+
+
+def _strings(name: str, values: Sequence[str]) -> str:
+    codes = " ".join(str(byte) for value in values for byte in (*value.encode(), 0))
+    return (
+        f'<Array type="String" Name="{name}" NumberOfTuples="{len(values)}" format="ascii">'
+        f"{codes}</Array>"
+    )

@@ -1,0 +1,139 @@
+"""Meshes as the objects of other libraries, which are loaded when they are first asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from decomp.tetra.incidence import incidence
+from decomp.tetra.ordering import in_vtk_order
+
+if TYPE_CHECKING:
+    from decomp.tetra.mesh import TetMesh
+
+TRIANGLES = {3: "triangle", 6: "triangle6"}
+TETS = {4: "tetra", 10: "tetra10"}
+VTK_TYPES = {3: 5, 6: 22, 4: 10, 10: 24}
+
+
+def to_meshio(mesh: TetMesh) -> Any:
+    """A `meshio.Mesh`, laid out as meshio reads it from a .msh file.
+
+    Cell data `gmsh:physical` and `gmsh:geometrical`; field data name: (tag, dimension); cell sets
+    by name. Where a volume and a surface share a name, the set holds both, in blocks of their own,
+    and the field data the surface's tag.
+
+    Raises:
+        ImportError: meshio is not installed.
+    """
+    import meshio  # type: ignore[import-untyped]
+
+    tags = [mesh.triangle_tags, mesh.tet_tags]
+    sets: dict[str, list[Any]] = {}
+    for group in mesh.groups:
+        rows = sets.setdefault(group.name, [np.empty(0, dtype=np.int64) for _ in tags])
+        block = group.dimension - 2
+        rows[block] = np.flatnonzero(tags[block] == group.tag)
+    ordered = sorted(mesh.groups, key=lambda group: -group.dimension)
+    return meshio.Mesh(
+        mesh.points,
+        [
+            (TRIANGLES[mesh.triangles.shape[1]], mesh.triangles),
+            (TETS[mesh.tets.shape[1]], in_vtk_order(mesh.tets)),
+        ],
+        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
+        field_data={group.name: np.array([group.tag, group.dimension]) for group in ordered},
+        cell_sets=sets,
+    )
+
+
+def to_pyvista(mesh: TetMesh) -> Any:
+    """A `pyvista.UnstructuredGrid` of the tetrahedra.
+
+    Cell data: `group` (tag) and `region` (index into field data `regions`). Field data: `names`,
+    in the order of `tags`.
+
+    Raises:
+        ImportError: pyvista is not installed.
+    """
+    import pyvista
+
+    tets = in_vtk_order(mesh.tets)
+    width = np.full((len(tets), 1), tets.shape[1])
+    types = np.full(len(tets), VTK_TYPES[tets.shape[1]], dtype=np.uint8)
+    grid = pyvista.UnstructuredGrid(np.hstack([width, tets]).ravel(), types, mesh.points)
+    volumes = [group for group in mesh.groups if group.dimension == 3]
+    regions = region_names(mesh)
+    grid.cell_data["group"] = mesh.tet_tags
+    grid.cell_data["region"] = region_numbers(mesh, 3)
+    grid.field_data["names"] = [group.name for group in volumes]
+    grid.field_data["tags"] = [group.tag for group in volumes]
+    grid.field_data["regions"] = regions
+    return grid
+
+
+def to_skfem(mesh: TetMesh) -> Any:
+    """A `skfem.MeshTet1` or `MeshTet2` with named subdomains and boundaries.
+
+    Subdomains are the volumes, and each region of several cells by its own name if no volume has
+    it; boundaries are the surfaces, oriented as the mesh's triangles are.
+
+    Raises:
+        ImportError: scikit-fem is not installed.
+    """
+    import skfem  # type: ignore[import-untyped]
+    from skfem.generic_utils import OrientedBoundary  # type: ignore[import-untyped]
+
+    tets = in_vtk_order(mesh.tets).T
+    made = skfem.MeshTet1 if mesh.order == 1 else skfem.MeshTet2
+    result = made(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(tets))
+    subdomains = {
+        group.name: np.flatnonzero(mesh.tet_tags == group.tag).astype(np.int32)
+        for group in mesh.groups
+        if group.dimension == 3
+    }
+    for number, name in enumerate(region_names(mesh)):
+        subdomains.setdefault(
+            name, np.flatnonzero(region_numbers(mesh, 3) == number).astype(np.int32)
+        )
+    facet, side = _facets(mesh, result)
+    boundaries = {}
+    for group in mesh.groups:
+        if group.dimension == 2:
+            own = mesh.triangle_tags == group.tag
+            boundaries[group.name] = OrientedBoundary(facet[own], side[own])
+    return result.with_subdomains(subdomains).with_boundaries(boundaries)
+
+
+def region_names(mesh: TetMesh) -> list[str]:
+    """The names of the regions, in the order in which the groups name them."""
+    return list(dict.fromkeys(name for group in mesh.groups for name in group.regions))
+
+
+def region_numbers(mesh: TetMesh, dimension: int) -> Any:
+    """For each element of a dimension the place of its first region in `region_names`."""
+    tags = mesh.tet_tags if dimension == 3 else mesh.triangle_tags
+    names = region_names(mesh)
+    table = np.full(int(tags.max(initial=0)) + 1, -1, dtype=np.int64)
+    for group in mesh.groups:
+        if group.dimension == dimension and group.regions and group.tag < len(table):
+            table[group.tag] = names.index(group.regions[0])
+    return table[tags]
+
+
+def _facets(mesh: TetMesh, result: Any) -> tuple[Any, Any]:
+    """For each triangle scikit-fem's facet, and on which of its sides the normal's tail is."""
+    pairs = incidence(mesh.triangles, mesh.tets)
+    order = np.argsort(-pairs.outward, kind="stable")
+    triangle, first = np.unique(pairs.triangle[order], return_index=True)
+    rows = order[first]
+    tet = pairs.tet[rows]
+    corners = np.sort(mesh.triangles[triangle, :3], axis=1)
+    of_tet = result.t2f[:, tet]
+    match = (np.sort(result.facets[:3], axis=0)[:, of_tet] == corners.T[:, None, :]).all(axis=0)
+    facet = of_tet[np.argmax(match, axis=0), np.arange(len(tet))]
+    tail = result.f2t[1, facet] == tet
+    # a triangle whose normal points into its only tetrahedron has its tail on the other side
+    side = np.where(pairs.outward[rows] > 0, tail, ~tail)
+    return facet.astype(np.int32), side.astype(np.int32)
