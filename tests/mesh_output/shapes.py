@@ -40,6 +40,8 @@ def bar(parts: int = 2) -> TetMesh:
     tets = _positive(points, tets)
     centre = points[tets].mean(axis=1)
     tags = np.where(centre[:, 0] > 1, 3, np.where(centre[:, 1] < 0.5, 1, 2))
+    order = np.argsort(tags, kind="stable")
+    tets, tags = tets[order], tags[order]
     triangles, triangle_tags = _tagged(points, tets)
     return TetMesh(
         "bar",
@@ -84,7 +86,7 @@ def _positive(points: Array, tets: Ints) -> Ints:
 
 
 def _tagged(points: Array, tets: Ints) -> tuple[Ints, Ints]:
-    """All faces with a group, each once; those of the boundary point outward."""
+    """All faces with a group, each once, pointing out of the first tetrahedron that has it."""
     faces = faces_of(tets)
     _, first, count = np.unique(row_keys(faces), return_index=True, return_counts=True)
     x, y, _ = points[faces[first]].transpose(2, 0, 1)
