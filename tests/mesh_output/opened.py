@@ -13,7 +13,10 @@ import pytest
 @contextmanager
 def opened(path: Path) -> Iterator[Any]:
     """Gmsh's module with a file loaded; any warning of Gmsh's fails."""
-    gmsh = pytest.importorskip("gmsh")
+    try:
+        import gmsh
+    except OSError as error:
+        pytest.skip(f"Gmsh's library lacks one of the system's: {error}")
     gmsh.initialize(interruptible=False)
     try:
         gmsh.option.setNumber("General.Terminal", 0)

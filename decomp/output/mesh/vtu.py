@@ -1,8 +1,9 @@
 """VTK's unstructured grids (.vtu) of tetrahedra and tagged triangles, for ParaView and PyVista.
 
-Cell data: `group` (tag, unique among triangles and among tetrahedra), `region` (index into
-`regions`) and `bc` (the input's boundary condition number, -1 for none). Point data: `unprojected`.
-Field data: `volume_names` and `volume_tags`, `surface_names` and `surface_tags`, `regions`.
+Cell data: `group` (tag, unique among triangles and among tetrahedra), `region` (number) and `bc`
+(the input's boundary condition number, -1 for none). Point data: `unprojected`. Field data: for
+each name an array of one number, `volume NAME` and `surface NAME` the tag, `region NAME` the
+number. (Arrays of strings would be plainer, but meshio refuses files with any.)
 Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
 """
 
@@ -10,8 +11,8 @@ from __future__ import annotations
 
 import base64
 import sys
-from collections.abc import Sequence
 from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +61,7 @@ def encoded(mesh: TetMesh) -> bytes:
         "</UnstructuredGrid>",
         "</VTKFile>",
     ]
-    return "\n".join(lines).encode("ascii") + b"\n"
+    return "\n".join(lines).encode() + b"\n"
 
 
 def _conditions(mesh: TetMesh) -> Ints:
@@ -71,12 +72,11 @@ def _conditions(mesh: TetMesh) -> Ints:
 
 
 def _field_data(mesh: TetMesh) -> list[str]:
-    lines = ["<FieldData>"]
-    for dimension, what in ((3, "volume"), (2, "surface")):
-        own = [group for group in mesh.groups if group.dimension == dimension]
-        lines.append(_strings(f"{what}_names", [group.name for group in own]))
-        lines.append(_array(f"{what}_tags", np.array([g.tag for g in own], dtype=np.int64), True))
-    return [*lines, _strings("regions", region_names(mesh)), "</FieldData>"]
+    what = {3: "volume", 2: "surface"}
+    numbers = {f"{what[group.dimension]} {group.name}": group.tag for group in mesh.groups}
+    numbers |= {f"region {name}": k for k, name in enumerate(region_names(mesh))}
+    arrays = (_array(name, np.array([number]), True) for name, number in numbers.items())
+    return ["<FieldData>", *arrays, "</FieldData>"]
 
 
 def _array(name: str, values: NDArray[Any], counted: bool = False) -> str:
@@ -86,12 +86,5 @@ def _array(name: str, values: NDArray[Any], counted: bool = False) -> str:
     data = np.ascontiguousarray(values).tobytes()
     text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
     kind = TYPES[values.dtype.name]
-    return f'<DataArray type="{kind}" Name="{name}"{width} format="binary">{text}</DataArray>'
-
-
-def _strings(name: str, values: Sequence[str]) -> str:
-    codes = " ".join(str(byte) for value in values for byte in (*value.encode(), 0))
-    return (
-        f'<Array type="String" Name="{name}" NumberOfTuples="{len(values)}" format="ascii">'
-        f"{codes}</Array>"
-    )
+    label = quoteattr(name)
+    return f'<DataArray type="{kind}" Name={label}{width} format="binary">{text}</DataArray>'

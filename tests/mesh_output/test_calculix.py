@@ -1,0 +1,79 @@
+"""CalculiX pulls at a bar by the names in its file."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from decomp.output.mesh.inp import valid_names
+from decomp.tetra.mesh import TetMesh
+from tests.mesh_output.shapes import bar, quadratic
+
+STEEL, PULL = 210e3, 30.0
+DECK = f"""
+*MATERIAL, NAME=STEEL
+*ELASTIC
+{STEEL}, 0.
+*SOLID SECTION, ELSET=LEFT, MATERIAL=STEEL
+*SOLID SECTION, ELSET=RIGHT_SIDE, MATERIAL=STEEL
+*BOUNDARY
+LEFT_LEFT_XMIN, 1, 1
+FIX, 1, 3
+*STEP
+*STATIC
+*DSLOAD
+RIGHT_RIGHT_XMAX, P, {-PULL}
+*NODE PRINT, NSET=RIGHT_RIGHT_XMAX
+U
+*NODE PRINT, NSET=NALL, TOTALS=ONLY
+RF
+*EL PRINT, ELSET=LEFT_CELL_1, TOTALS=ONLY
+EVOL
+*END STEP
+"""
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
+@pytest.mark.parametrize("mesh", [bar(), quadratic(bar())], ids=["C3D4", "C3D10"])
+def test_a_bar_is_pulled(mesh: TetMesh, tmp_path: Path) -> None:
+    """Without lateral contraction the right end moves by pull * length / stiffness."""
+    mesh.write(tmp_path / "bar.inp")
+    corner = int(
+        np.flatnonzero((mesh.points[:, 0] == 0) & (mesh.points[:, 1:] == 0).all(axis=1))[0]
+    )
+    along = int(np.flatnonzero((mesh.points == [0, 1, 0]).all(axis=1))[0])
+    fixed = f"*NSET, NSET=FIX\n{corner + 1},\n*BOUNDARY\n{along + 1}, 3, 3\n"
+    (tmp_path / "pull.inp").write_text(f"*INCLUDE, INPUT=bar.inp\n{fixed}{DECK}")
+    run = subprocess.run(
+        ["ccx", "-i", "pull"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout[-2000:]
+    assert "*ERROR" not in run.stdout
+    assert "*WARNING" not in run.stdout
+    rows = re.findall(
+        r"^ +\d+ +(\S+) +(\S+) +(\S+)$", (tmp_path / "pull.dat").read_text(), re.MULTILINE
+    )
+    moved = np.array(rows, dtype=float)
+    count = len(np.unique(mesh.triangles[mesh.triangle_tags == 4]))
+    assert len(moved) == count
+    assert moved[:, 0] == pytest.approx(PULL * 2 / STEEL, rel=1e-5)
+    assert np.abs(moved[:, 1:]).max() < 1e-9
+
+
+def test_names_are_valid_and_different() -> None:
+    long = "x" * 100
+    names = valid_names(["part/hole.side", "part_hole-side", "2/x", "±", long, long, "nall"])
+    assert names[:4] == ["PART_HOLE_SIDE", "PART_HOLE_SIDE_2", "G_2_X", "G"]
+    assert names[6] == "NALL_2"
+    assert len(set(names)) == len(names)
+    assert all(re.fullmatch(r"[A-Z][A-Z0-9_]{0,79}", name) for name in names)
