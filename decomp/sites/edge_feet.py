@@ -14,6 +14,8 @@ from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
 SINGULAR = 1e-6
+NEXT_TO_CONTACT = 1e-6
+"""The part of a chord next to a point where two carriers touch that is looked at first."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
 
 
@@ -147,9 +149,29 @@ def chord_gap(table: CarrierTable, a: int, b: int, samples: Array, i: int) -> fl
 def advance(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, u: float, p: Triple
 ) -> tuple[bool, float, Triple]:
-    """How far p lies ahead of C(u) along the tangent there (of any length), and C(u)."""
+    """How far p lies ahead of C(u) along the tangent there, and C(u)."""
     good, x, y, z, tx, ty, tz = curve_point(table, a, b, samples, i, u)
-    return good, (p[0] - x) * tx + (p[1] - y) * ty + (p[2] - z) * tz, (x, y, z)
+    ahead = (p[0] - x) * tx + (p[1] - y) * ty + (p[2] - z) * tz
+    # the tangent vanishes where carriers touch: its length must not count
+    return good, ahead / max(sqrt(tx * tx + ty * ty + tz * tz), TINY), (x, y, z)
+
+
+@scalar
+def from_end(
+    table: CarrierTable, a: int, b: int, samples: Array, i: int, end: float, p: Triple
+) -> tuple[float, bool, float, Triple]:
+    """`advance` at an end, 0 or 1, of a chord, or beside it where the carriers touch there.
+
+    Returns:
+        First u, then what `advance` returns.
+    """
+    u, off = end, NEXT_TO_CONTACT
+    good, ahead, q = advance(table, a, b, samples, i, u, p)
+    while not good and off < 0.1:
+        u = off if end == 0.0 else 1.0 - off
+        good, ahead, q = advance(table, a, b, samples, i, u, p)
+        off *= 4.0
+    return u, good, ahead, q
 
 
 @scalar
@@ -157,9 +179,8 @@ def between_samples(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
 ) -> tuple[bool, Triple]:
     """The nearest point strictly between two samples, if there is one (regula falsi)."""
-    low, high = 0.0, 1.0
-    good, ahead, q = advance(table, a, b, samples, i, low, p)
-    good2, behind, _ = advance(table, a, b, samples, i, high, p)
+    low, good, ahead, q = from_end(table, a, b, samples, i, 0.0, p)
+    high, good2, behind, _ = from_end(table, a, b, samples, i, 1.0, p)
     if not (good and good2 and ahead > 0.0 and behind < 0.0):
         return False, q
     for _ in range(60):
