@@ -1,0 +1,200 @@
+"""Tetrahedra and triangles from Gmsh files (.msh) of formats 4.1 and 2.2, binary or text.
+
+Format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from decomp.errors import FileError
+from decomp.tetra.msh_sections import Numbers, Sections, sections
+from decomp.vectors import Array, Ints
+
+NODES = {1: 2, 2: 3, 3: 4, 4: 4, 5: 8, 6: 6, 7: 5, 8: 3, 9: 6, 10: 9, 11: 10, 15: 1}
+"""Number of nodes of Gmsh's element types."""
+NODES |= {12: 27, 13: 18, 14: 14, 16: 8, 17: 20, 18: 15, 19: 13, 21: 10, 29: 20}
+TRIANGLES, TETS = (2, 9), (4, 11)
+SURFACES, SOLIDS = (2, 3, 9, 10, 16, 21), (4, 5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29)
+NONE, SEVERAL = 0, -1
+
+
+@dataclass(frozen=True, eq=False)
+class ReadMesh:
+    """A mesh as a file has it.
+
+    Args:
+        points: (n, 3) nodes of its elements.
+        tets: (m, 4) or (m, 10), as numbers of points, in Gmsh's order.
+        tet_tags: (m,) the tag of each one's physical group; NONE or SEVERAL where it is not one.
+        triangles: (k, 3) or (k, 6).
+        triangle_tags: (k,) like `tet_tags`.
+        names: of the physical groups, by dimension and tag; "" for those without.
+    """
+
+    points: Array
+    tets: Ints
+    tet_tags: Ints
+    triangles: Ints
+    triangle_tags: Ints
+    names: dict[tuple[int, int], str]
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """Elements of one type: nodes' tags (m, c), and tags (m,) of their physical groups."""
+
+    kind: int
+    nodes: Ints
+    tags: Ints
+
+
+def read_msh(path: str | Path) -> ReadMesh:
+    """Read a file.
+
+    Raises:
+        FileError: it cannot be read, has another format, or has elements other than tetrahedra and
+            triangles of order 1 or 2.
+    """
+    parts = sections(path)
+    if parts.version == 4.1:
+        tags, points, blocks = _read_41(parts)
+    elif 2.0 <= parts.version < 3.0:
+        tags, points, blocks = _read_22(parts)
+    else:
+        raise FileError(f"format {parts.version:g} is not read, only 4.1 and 2.2", path)
+    tets, tet_tags = _joined(blocks, TETS, path)
+    triangles, triangle_tags = _joined(blocks, TRIANGLES, path)
+    for block in blocks:
+        if block.kind in SURFACES + SOLIDS and block.kind not in TRIANGLES + TETS:
+            what = f"{len(block.nodes)} elements of Gmsh's type {block.kind}"
+            raise FileError(f"{what}: only tetrahedra and triangles are read", path)
+    if not len(tets):
+        raise FileError("there are no tetrahedra in it", path)
+    used = np.unique(np.concatenate([tets.reshape(-1), triangles.reshape(-1)]))
+    order = np.argsort(tags)
+    if not np.isin(used, tags).all():
+        raise FileError("there are elements with nodes that it does not define", path)
+    place = order[np.searchsorted(tags[order], used)]
+    names = {(2, int(tag)): "" for tag in np.unique(triangle_tags) if tag > 0}
+    names |= {(3, int(tag)): "" for tag in np.unique(tet_tags) if tag > 0}
+    names |= {key: name for key, name in parts.names.items() if key[0] in (2, 3)}
+    return ReadMesh(
+        points[place],
+        np.searchsorted(used, tets),
+        tet_tags,
+        np.searchsorted(used, triangles),
+        triangle_tags,
+        names,
+    )
+
+
+def _joined(blocks: list[_Block], kinds: tuple[int, int], path: str | Path) -> tuple[Ints, Ints]:
+    own = [block for block in blocks if block.kind in kinds and len(block.nodes)]
+    if len({block.kind for block in own}) > 1:
+        raise FileError("it has elements of both order 1 and order 2", path)
+    width = NODES[own[0].kind if own else kinds[0]]
+    nodes = np.concatenate([np.empty((0, width), dtype=np.int64), *(b.nodes for b in own)])
+    return nodes, np.concatenate([np.empty(0, dtype=np.int64), *(b.tags for b in own)])
+
+
+def _read_41(parts: Sections) -> tuple[Ints, Array, list[_Block]]:
+    physical: dict[tuple[int, int], int] = _physical(parts) if parts.has("Entities") else {}
+    numbers = parts.numbers("Nodes")
+    count = int(numbers.take("u8", 4)[0])
+    tags, points = [np.empty(0, dtype=np.int64)], [np.empty((0, 3))]
+    for _ in range(count):
+        dimension, _, parametric = (int(k) for k in numbers.take("i4", 3))
+        size = numbers.one("u8")
+        tags.append(numbers.take("u8", size).astype(np.int64))
+        width = 3 + (dimension if parametric else 0)
+        points.append(numbers.take("f8", width * size).reshape(size, width)[:, :3])
+    blocks = []
+    numbers = parts.numbers("Elements")
+    for _ in range(int(numbers.take("u8", 4)[0])):
+        dimension, entity, kind = (int(k) for k in numbers.take("i4", 3))
+        size = numbers.one("u8")
+        width = _width(kind, parts) + 1
+        rows = numbers.take("u8", width * size).reshape(size, width).astype(np.int64)
+        tag = physical.get((dimension, entity), NONE)
+        blocks.append(_Block(kind, rows[:, 1:], np.full(size, tag, dtype=np.int64)))
+    return np.concatenate(tags), np.concatenate(points), blocks
+
+
+def _physical(parts: Sections) -> dict[tuple[int, int], int]:
+    """The physical group of each entity, by dimension and tag; NONE or SEVERAL if not one."""
+    numbers = parts.numbers("Entities")
+    counts = [int(k) for k in numbers.take("u8", 4)]
+    result = {}
+    for dimension, count in enumerate(counts):
+        for _ in range(count):
+            entity = numbers.one("i4")
+            numbers.take("f8", 6 if dimension else 3)
+            groups = numbers.take("i4", numbers.one("u8"))
+            if dimension:
+                numbers.take("i4", numbers.one("u8"))
+            one = int(abs(groups[0])) if len(groups) == 1 else SEVERAL if len(groups) else NONE
+            result[dimension, entity] = one
+    return result
+
+
+def _read_22(parts: Sections) -> tuple[Ints, Array, list[_Block]]:
+    numbers = parts.numbers("Nodes")
+    if parts.binary:
+        raise FileError("format 2.2 is read as text only: save it as text, or as 4.1", parts.path)
+    count = numbers.one("i8")
+    nodes = numbers.take("f8", 4 * count).reshape(count, 4)
+    numbers = parts.numbers("Elements")
+    count = numbers.one("i8")
+    blocks = [_with_several(block) for block in _runs(numbers, count, parts)]
+    return nodes[:, 0].astype(np.int64), nodes[:, 1:], blocks
+
+
+def _runs(numbers: Numbers, count: int, parts: Sections) -> list[_Block]:
+    """Elements of format 2.2, all of one type together."""
+    words = numbers.rest.astype(np.int64)
+    found: dict[int, list[_Block]] = {}
+    at = done = 0
+    while done < count:
+        if at + 3 > len(words):
+            raise FileError("section $Elements ends too early", parts.path)
+        kind, tags = int(words[at + 1]), int(words[at + 2])
+        width = 3 + tags + _width(kind, parts)
+        most = min(count - done, (len(words) - at) // width)
+        if most == 0:
+            raise FileError("section $Elements ends too early", parts.path)
+        rows = words[at : at + most * width].reshape(most, width)
+        other = np.flatnonzero((rows[:, 1] != kind) | (rows[:, 2] != tags))
+        size = int(other[0]) if len(other) else most
+        rows = rows[:size]
+        own = rows[:, 3] if tags else np.zeros(size, dtype=np.int64)
+        found.setdefault(kind, []).append(_Block(kind, rows[:, 3 + tags :], own))
+        at, done = at + size * width, done + size
+    return [
+        _Block(kind, np.concatenate([b.nodes for b in own]), np.concatenate([b.tags for b in own]))
+        for kind, own in found.items()
+    ]
+
+
+def _with_several(block: _Block) -> _Block:
+    """Format 2.2 lists an element once for each of its groups: keep it once."""
+    _, first, place, count = np.unique(
+        block.nodes, axis=0, return_index=True, return_inverse=True, return_counts=True
+    )
+    if len(first) == len(block.nodes):
+        return block
+    tags = block.tags[first]
+    low, high = np.full(len(first), np.iinfo(np.int64).max), np.zeros(len(first), dtype=np.int64)
+    np.minimum.at(low, place.reshape(-1), block.tags)
+    np.maximum.at(high, place.reshape(-1), block.tags)
+    tags = np.where((count > 1) & (low != high), SEVERAL, tags)
+    return _Block(block.kind, block.nodes[first], tags)
+
+
+def _width(kind: int, parts: Sections) -> int:
+    if kind not in NODES:
+        raise FileError(f"elements of Gmsh's type {kind} are not read", parts.path)
+    return NODES[kind]

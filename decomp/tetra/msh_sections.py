@@ -1,0 +1,140 @@
+"""The sections of a Gmsh file (.msh), and numbers from them, binary or text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from decomp.errors import FileError
+
+NAME = re.compile(rb'^\s*(\d+)\s+(-?\d+)\s+"(.*)"\s*$')
+
+
+class Numbers:
+    """Takes numbers from a section, one array after the other.
+
+    Args:
+        body: of the section.
+        binary: whether the numbers are binary, else text.
+        swapped: whether binary numbers have the other byte order.
+        path: of the file, for messages.
+    """
+
+    def __init__(self, body: bytes, binary: bool, swapped: bool, path: str | Path) -> None:
+        self._body, self._at, self._path = body, 0, path
+        self._swapped = swapped
+        self._words: NDArray[np.float64] | None = None
+        if not binary:
+            self._words = np.array(body.split(), dtype=np.float64)
+
+    def take(self, kind: str, count: int) -> NDArray[Any]:
+        """The next numbers (count,) of a NumPy type.
+
+        Raises:
+            FileError: there are too few.
+        """
+        dtype = np.dtype(kind)
+        have = len(self._body) if self._words is None else len(self._words)
+        end = self._at + count * (dtype.itemsize if self._words is None else 1)
+        if count < 0 or end > have:
+            raise FileError("the file ends too early, or its counts are wrong", self._path)
+        if self._words is None:
+            stored = dtype.newbyteorder("S") if self._swapped else dtype
+            found = np.frombuffer(self._body, stored, count, self._at).astype(dtype)
+        else:
+            found = self._words[self._at : end].astype(dtype)
+        self._at = end
+        return found
+
+    def one(self, kind: str) -> int:
+        """The next number, a whole one."""
+        return int(self.take(kind, 1)[0])
+
+    @property
+    def rest(self) -> NDArray[Any]:
+        """What is left of a section of text, (n,)."""
+        assert self._words is not None
+        return self._words[self._at :]
+
+
+@dataclass(frozen=True, eq=False)
+class Sections:
+    """A file taken apart.
+
+    Args:
+        path: of the file.
+        version: of the format.
+        names: of the physical groups, by dimension and tag.
+        binary: whether numbers are binary, else text.
+    """
+
+    path: str | Path
+    version: float
+    names: dict[tuple[int, int], str]
+    _bodies: dict[str, bytes]
+    binary: bool
+    _swapped: bool
+
+    def numbers(self, name: str) -> Numbers:
+        """A section's numbers.
+
+        Raises:
+            FileError: there is no such section.
+        """
+        if name not in self._bodies:
+            raise FileError(f"there is no section ${name}", self.path)
+        try:
+            return Numbers(self._bodies[name], self.binary, self._swapped, self.path)
+        except ValueError:
+            raise FileError(f"section ${name} holds what is no number", self.path) from None
+
+    def has(self, name: str) -> bool:
+        """Whether the file has a section."""
+        return name in self._bodies
+
+
+def sections(path: str | Path) -> Sections:
+    """Read a file.
+
+    Raises:
+        FileError: it cannot be read, or is no .msh file.
+    """
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise FileError(f"cannot be read: {error.strerror or error}", path) from None
+    head = re.match(rb"\s*\$MeshFormat\s+([\d.]+)\s+([01])\s+(\d+)[ \t]*\r?\n", data)
+    if head is None:
+        raise FileError("this is no .msh file: it does not begin with $MeshFormat", path)
+    binary = head[2] == b"1"
+    if binary and head[3] != b"8":
+        raise FileError(f"numbers of {head[3].decode()} bytes are not read, only of 8", path)
+    one = data[head.end() : head.end() + 4]
+    swapped = binary and np.frombuffer(one.ljust(4, b"\0"), "i4")[0] != 1
+    bodies = _bodies(data, path)
+    names = {}
+    for line in bodies.get("PhysicalNames", b"").splitlines()[1:]:
+        found = NAME.match(line)
+        if found:
+            names[int(found[1]), int(found[2])] = found[3].decode(errors="replace")
+    return Sections(path, float(head[1]), names, bodies, binary, bool(swapped))
+
+
+def _bodies(data: bytes, path: str | Path) -> dict[str, bytes]:
+    """The bytes between $Name and $EndName; of sections that come twice, the last."""
+    result: dict[str, bytes] = {}
+    at = 0
+    mark = re.compile(rb"\$([A-Za-z]\w*)[ \t]*\r?\n")
+    while (start := mark.search(data, at)) is not None:
+        name = start[1]
+        end = data.find(b"$End" + name, start.end())
+        if end < 0:
+            raise FileError(f"section ${name.decode()} has no end", path)
+        result[name.decode()] = data[start.end() : end]
+        at = end + len(name) + 4
+    return result
