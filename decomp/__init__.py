@@ -41,6 +41,8 @@ if TYPE_CHECKING:
     from decomp.formats import save as save
     from decomp.geometry import Geometry as Geometry
     from decomp.medial.result import Skeleton as Skeleton
+    from decomp.meshing import mesh as mesh
+    from decomp.tetra.mesh import TetMesh as TetMesh
 
 _HOMES = {
     "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
@@ -61,6 +63,8 @@ _HOMES = {
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
     "decomp.medial.result": ("Skeleton",),
+    "decomp.meshing": ("mesh",),
+    "decomp.tetra.mesh": ("TetMesh",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -1,0 +1,108 @@
+"""From a model to a tetrahedral mesh with a name on every cell, face, interface and sheet.
+
+1. The exact skeleton, as one complex of triangles.
+2. fTetWild fills the box around it with tetrahedra that conform to it.
+3. Each tetrahedron is told its cell, each triangle between cells its patch, by exact queries.
+4. Nodes are moved onto the exact surfaces, curves and points that they belong to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from decomp.compute import TOLERANCE, skeleton
+from decomp.csg.model import Model
+from decomp.csg.solid import Solid
+from decomp.geometry import Geometry
+from decomp.medial.result import Skeleton
+from decomp.tetra.cells import cell_map
+from decomp.tetra.child import Settings, tetrahedralized
+from decomp.tetra.classify import classified, region_of
+from decomp.tetra.groups import cell_groups, region_groups, surface_groups
+from decomp.tetra.layout import layout
+from decomp.tetra.mesh import TetMesh
+from decomp.tetra.tagging import Tagger
+from decomp.vectors import Array, Ints
+
+Progress = Callable[[str, float], None]
+
+
+def mesh(
+    source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
+    *,
+    size: float | None = None,
+    layers: int | None = None,
+    elements_per_circle: float | None = None,
+    order: int = 1,
+    cells: Literal["skeleton", "face"] = "skeleton",
+    volumes: Literal["cells", "regions"] = "cells",
+    sheets: bool = True,
+    tolerance: float = TOLERANCE,
+    timeout: float = 600.0,
+    progress: Progress | None = None,
+    of: Skeleton | None = None,
+) -> TetMesh:
+    """Mesh a model.
+
+    Args:
+        source: a geometry, or what one can be made of.
+        size: largest edge length wanted, in model units.
+        layers: at least so many elements across thin parts.
+        elements_per_circle: at least so many edges around a full circle of a curved face.
+        order: 1 for straight elements, 2 for quadratic ones.
+        cells: `skeleton`, or `face` for one cell for each boundary face.
+        volumes: `cells`, or `regions` for one physical volume for each region.
+        sheets: whether triangles between the cells of a region are tagged.
+        tolerance: of the skeleton's triangles, relative to the model's diagonal.
+        timeout: seconds that TetWild may take.
+        progress: told what is being done, and which part of the whole (0 to 1) is behind.
+        of: the model's skeleton, where it is known.
+
+    Raises:
+        InputError: an option is out of its range.
+        FileError: the file cannot be read.
+        GeometryError: the solid or its skeleton cannot be computed.
+        MeshingError: TetWild fails.
+    """
+    geometry = source if isinstance(source, Geometry) else Geometry(source)
+    tell = progress or (lambda what, done: None)
+    made = of or skeleton(geometry, tolerance, lambda what, done: tell(what, 0.4 * done))
+    by_face = cells == "face"
+    known = cell_map(made, by_face)
+    plan = layout(made, known, by_face)
+    edge = size or geometry.diagonal / 20
+    settings = Settings(edge, min(2e-3 * geometry.diagonal, edge / 6))
+    tell("TetWild", 0.4)
+    raw = tetrahedralized(*_soup(plan.complex.points, plan.triangles), settings, None, timeout)
+    tell("naming", 0.8)
+    epsilon = raw.settings.epsilon
+    label, faces = classified(geometry, known, raw.points, raw.tets, epsilon)
+    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(raw.points, label, faces)
+    groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
+    inside = label >= 0
+    if volumes == "cells":
+        solid, tet_tags = cell_groups(geometry, known), label[inside] + 1
+    else:
+        solid, tet_tags = region_groups(geometry), region_of(label[inside], known) + 1
+    tets, triangles = raw.tets[inside], tagged.triangles[tags > 0]
+    used = np.unique(tets)
+    return TetMesh(
+        geometry.model.name,
+        raw.points[used],
+        np.searchsorted(used, tets),
+        tet_tags,
+        np.searchsorted(used, triangles),
+        tags[tags > 0],
+        (*solid, *groups),
+        np.empty(0, dtype=np.int64),
+    )
+
+
+def _soup(points: Array, triangles: Ints) -> tuple[Array, Ints]:
+    """The points that triangles use, and the triangles renumbered."""
+    used = np.unique(triangles)
+    return points[used], np.searchsorted(used, triangles)

@@ -1,0 +1,111 @@
+"""Which cell holds a point, exactly: its region, its nearest site, and the cell with its face."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.geometry import Geometry
+from decomp.medial.result import Cell, Skeleton
+from decomp.sites.site import Site, SiteKind
+from decomp.vectors import Array, Ints
+
+OUTSIDE = -1
+
+
+@dataclass(frozen=True, eq=False)
+class CellMap:
+    """The cells of all regions under one numbering.
+
+    Args:
+        cells: all, region after region.
+        region: (c,) the region of each cell.
+        of_site: (s,) the cell that holds the points nearest to each site, OUTSIDE for the sites of
+            the outside.
+        face: (s,) the face, as an index into its region's, that owns each site.
+        regions: how many there are.
+    """
+
+    cells: tuple[Cell, ...]
+    region: Ints
+    of_site: Ints
+    face: Ints
+    regions: int
+
+
+@dataclass(frozen=True, eq=False)
+class Located:
+    """Where points are.
+
+    Args:
+        cell: (n,) numbers, OUTSIDE where no region is.
+        site: (n,) nearest ones.
+        foot: (n, 3) nearest points of the boundary of the region, or of the outside.
+    """
+
+    cell: Ints
+    site: Ints
+    foot: Array
+
+
+def cell_map(skeleton: Skeleton, by_face: bool) -> CellMap:
+    """Number the skeleton's cells, or its face cells.
+
+    Args:
+        skeleton: of the model.
+        by_face: whether face cells are meant.
+    """
+    cells: list[Cell] = []
+    region: list[int] = []
+    of_face: dict[tuple[int, int], int] = {}
+    for number, each in enumerate(skeleton.regions):
+        names = {face.name: k for k, face in enumerate(each.boundary.faces)}
+        for cell in each.face_cells if by_face else each.cells:
+            for name in cell.faces:
+                of_face[number, names[name]] = len(cells)
+            cells.append(cell)
+            region.append(number)
+    owner = site_owners(skeleton.sites, [each.boundary for each in skeleton.regions])
+    of_site = [
+        OUTSIDE if site.region < 0 else of_face[site.region, int(face)]
+        for site, face in zip(skeleton.sites, owner, strict=True)
+    ]
+    return CellMap(
+        tuple(cells),
+        np.array(region, dtype=np.int64),
+        np.array(of_site, dtype=np.int64),
+        owner,
+        len(skeleton.regions),
+    )
+
+
+def site_owners(sites: Sequence[Site], boundaries: Sequence[RegionBoundary]) -> Ints:
+    """The face (s,) that owns each site: an edge's is its first, -1 for sites of the outside.
+
+    A reentrant vertex belongs to the face of its first reentrant edge.
+    """
+    edges = {(site.region, site.index) for site in sites if site.kind is SiteKind.EDGE}
+    owner = np.full(len(sites), -1, dtype=np.int64)
+    for number, site in enumerate(sites):
+        if site.region < 0:
+            continue
+        boundary = boundaries[site.region]
+        if site.kind is SiteKind.FACE:
+            owner[number] = site.index
+        elif site.kind is SiteKind.EDGE:
+            owner[number] = boundary.edges[site.index].faces[0]
+        else:
+            vertex = boundary.vertices[site.index]
+            own = [edge for edge in vertex.edges if (site.region, edge) in edges]
+            owner[number] = boundary.edges[own[0]].faces[0] if own else vertex.faces[0]
+    return owner
+
+
+def locate(geometry: Geometry, cells: CellMap, points: Array) -> Located:
+    """Find the cells of points (n, 3)."""
+    found = geometry.index.nearest(points)
+    cell = np.where(found.region < 0, OUTSIDE, cells.of_site[found.site])
+    return Located(cell, found.site.astype(np.int64), found.foot)

@@ -1,0 +1,133 @@
+"""Which cell each tetrahedron belongs to.
+
+fTetWild tells only points and tetrahedra. Where a tetrahedron lies is asked of the exact geometry
+at several points inside it. Where they agree that is the answer. Tetrahedra in doubt lie at an
+interface, flat against it or reaching a little beyond: they follow their neighbours, except across
+walls, the triangles that have different cells close to both their sides.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.geometry import Geometry
+from decomp.tetra.cells import CellMap, locate
+from decomp.tetra.faces import NONE, Faces, faces_of, volumes
+from decomp.vectors import Array, Bools, Ints, cross, norm
+
+TOWARDS = 0.8
+"""Points asked lie so far from the middle of a tetrahedron to its vertices."""
+ASIDE = 2.0
+"""So many epsilons off a triangle its two sides are asked."""
+ROUNDS = 30
+OWN = 0.5
+"""What a tetrahedron's own points count against all of its neighbours."""
+
+
+def classified(
+    geometry: Geometry, cells: CellMap, points: Array, tets: Ints, epsilon: float
+) -> tuple[Ints, Faces]:
+    """The cell (m,) of each tetrahedron (m, 4), OUTSIDE for none, and their triangles."""
+    votes = _votes(geometry, cells, points, tets)
+    label = votes[:, 0].copy()
+    doubt = (votes != label[:, None]).any(axis=1)
+    faces = faces_of(tets)
+    label[doubt] = _majority(votes[doubt])
+    _follow(geometry, cells, points, tets, faces, votes, doubt, label, epsilon)
+    return label, faces
+
+
+def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Ints:
+    """The cells (m, 5) at each tetrahedron's middle and near its vertices."""
+    corners = points[tets]
+    middle = corners.mean(axis=1, keepdims=True)
+    asked = np.concatenate([middle, middle + TOWARDS * (corners - middle)], axis=1)
+    return locate(geometry, cells, asked.reshape(-1, 3)).cell.reshape(len(tets), 5)
+
+
+def _majority(votes: Ints) -> Ints:
+    """The most frequent cell of each row; of the middle if there is no other as frequent."""
+    count = (votes[:, :, None] == votes[:, None, :]).sum(axis=2)
+    return np.asarray(votes[np.arange(len(votes)), np.argmax(count, axis=1)])
+
+
+def walls(
+    geometry: Geometry, cells: CellMap, points: Array, triangles: Ints, epsilon: float
+) -> Bools:
+    """Whether triangles (f, 3) have different cells close to both their sides."""
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    normal = cross(b - a, c - a)
+    way = normal * (ASIDE * epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+    middle = (a + b + c) / 3
+    found = locate(geometry, cells, np.concatenate([middle - way, middle + way])).cell
+    return np.asarray(found[: len(middle)] != found[len(middle) :])
+
+
+def _follow(
+    geometry: Geometry,
+    cells: CellMap,
+    points: Array,
+    tets: Ints,
+    faces: Faces,
+    votes: Ints,
+    doubt: Bools,
+    label: Ints,
+    epsilon: float,
+) -> None:
+    """Let tetrahedra in doubt take the cell that most of their open sides have.
+
+    Each asks its neighbours, weighted by area; across a wall a neighbour has no say. Sides of its
+    own points count too, so that it does not leave its own cell for little.
+    """
+    inner = faces.tets[:, 1] != NONE
+    touching = inner & (doubt[faces.tets[:, 0]] | (doubt[faces.tets[:, 1]] & inner))
+    rows = np.flatnonzero(touching)
+    rows = rows[~walls(geometry, cells, points, faces.triangles[rows], epsilon)]
+    a, b, c = np.moveaxis(points[faces.triangles[rows]], 1, 0)
+    area = norm(cross(b - a, c - a))
+    ends = faces.tets[rows]
+    who = np.concatenate([ends[:, 0], ends[:, 1]])
+    other = np.concatenate([ends[:, 1], ends[:, 0]])
+    weight = np.concatenate([area, area])
+    mine = doubt[who]
+    who, other, weight = who[mine], other[mine], weight[mine]
+    around = np.bincount(who, weight, minlength=len(tets))
+    doubtful = np.flatnonzero(doubt)
+    own_who = np.repeat(doubtful, votes.shape[1])
+    own_label = votes[doubtful].reshape(-1)
+    own_weight = np.repeat(np.maximum(around[doubtful], 1e-300) * OWN / 5, votes.shape[1])
+    for turn in range(ROUNDS):
+        asked = np.concatenate([who, own_who])
+        said = np.concatenate([label[other], own_label])
+        new = _heaviest(asked, said, np.concatenate([weight, own_weight]), len(tets))
+        changing = doubtful[new[doubtful] != label[doubtful]]
+        if not len(changing):
+            return
+        # every other turn only half of them change, so that no two swap for ever
+        if turn % 2:
+            changing = changing[changing % 2 == (turn // 2) % 2]
+        label[changing] = new[changing]
+
+
+def _heaviest(who: Ints, said: Ints, weight: Array, count: int) -> Ints:
+    """For each of `count` the value with the largest sum of weights, -2 where none is given."""
+    width = int(said.max(initial=0)) + 2
+    key = who * width + said + 1
+    unique, which = np.unique(key, return_inverse=True)
+    total = np.bincount(which, weight)
+    order = np.lexsort((total, unique // width))
+    best = np.full(count, -2, dtype=np.int64)
+    best[unique[order] // width] = unique[order] % width - 1
+    return best
+
+
+def region_of(label: Ints, cells: CellMap) -> Ints:
+    """The region (m,) of cells (m,), -1 for the outside."""
+    return np.where(label < 0, -1, cells.region[np.maximum(label, 0)])
+
+
+def volume_by_cell(points: Array, tets: Ints, label: Ints, cells: CellMap) -> Array:
+    """The volume (c,) of each cell's tetrahedra."""
+    inside = label >= 0
+    found = volumes(points, tets)[inside]
+    return np.bincount(label[inside], found, len(cells.cells)).astype(np.float64)

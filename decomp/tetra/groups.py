@@ -1,0 +1,141 @@
+"""Names and tags of the parts of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from decomp.complex.model import PatchKind
+from decomp.errors import InputError
+from decomp.geometry import Geometry
+from decomp.medial.result import Skeleton
+from decomp.tetra.cells import OUTSIDE, CellMap
+from decomp.tetra.layout import Layout
+from decomp.tetra.mesh import Group, GroupKind
+from decomp.tetra.tagging import Tagged
+from decomp.vectors import Ints
+
+
+def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
+    """A group for each cell, in their order."""
+    found = []
+    for number, cell in enumerate(cells.cells):
+        region = geometry.model.regions[int(cells.region[number])]
+        found.append(
+            Group(
+                GroupKind.CELL,
+                number + 1,
+                cell.name,
+                (region.name,),
+                cell.faces,
+                cell.volume,
+                option_number(region.options, "maxh"),
+            )
+        )
+    return found
+
+
+def region_groups(geometry: Geometry) -> list[Group]:
+    """A group for each region, in their order."""
+    return [
+        Group(
+            GroupKind.REGION,
+            number + 1,
+            region.name,
+            (region.name,),
+            (),
+            geometry.regions[number].volume,
+            option_number(region.options, "maxh"),
+        )
+        for number, region in enumerate(geometry.model.regions)
+    ]
+
+
+def surface_groups(
+    geometry: Geometry,
+    skeleton: Skeleton,
+    cells: CellMap,
+    plan: Layout,
+    tagged: Tagged,
+    sheets: bool,
+) -> tuple[list[Group], Ints]:
+    """Groups of boundary faces, interfaces and sheets, and each triangle's tag, 0 for none.
+
+    Every face and interface of the model has a group, a pair of cells where triangles part them.
+
+    Args:
+        geometry, skeleton, cells, plan: of the model.
+        tagged: the triangles.
+        sheets: whether sheets get groups.
+    """
+    names = [region.name for region in geometry.model.regions]
+    groups: list[Group] = []
+    of_face: dict[tuple[tuple[int, int], ...], int] = {}
+    tag_of_patch = np.zeros(len(plan.sides), dtype=np.int64)
+    ordered = sorted(range(len(plan.sides)), key=lambda k: len(plan.sides[k]))
+    for patch in ordered:
+        sides = plan.sides[patch]
+        if not sides:
+            continue
+        if sides not in of_face:
+            faces = [geometry.regions[r].faces[f] for r, f in sides]
+            full = [f"{names[r]}/{face.name}" for (r, _), face in zip(sides, faces, strict=True)]
+            numbers = [option_number(face.options, "bc") for face in faces]
+            bc = next((int(n) for n in numbers if n is not None), None)
+            kind = GroupKind.FACE if len(sides) == 1 else GroupKind.INTERFACE
+            of_face[sides] = len(groups) + 1
+            groups.append(
+                Group(
+                    kind,
+                    len(groups) + 1,
+                    "|".join(full),
+                    tuple(names[r] for r, _ in sides),
+                    bc=bc,
+                )
+            )
+        tag_of_patch[patch] = of_face[sides]
+    tags = tag_of_patch[tagged.patches]
+    if sheets:
+        _sheet_groups(skeleton, cells, plan, tagged, groups, tags)
+    return groups, tags
+
+
+def _sheet_groups(
+    skeleton: Skeleton,
+    cells: CellMap,
+    plan: Layout,
+    tagged: Tagged,
+    groups: list[Group],
+    tags: Ints,
+) -> None:
+    """One group for each two cells that touch; sets the tags of their triangles."""
+    kinds = [patch.kind for patch in plan.complex.patches]
+    sheet = np.array([kind is PatchKind.SHEET for kind in kinds])[tagged.patches]
+    inner = (tagged.cells[:, 1] != OUTSIDE) & sheet
+    rows = np.flatnonzero(inner & (tags == 0))
+    pairs, which = np.unique(tagged.cells[rows], axis=0, return_inverse=True)
+    first = len(groups)
+    for low, high in pairs.tolist():
+        region = skeleton.regions[int(cells.region[low])].name
+        one, two = (cells.cells[k].name.removeprefix(f"{region}/") for k in (low, high))
+        name = f"{region}/{one}|{two}"
+        groups.append(Group(GroupKind.SHEET, len(groups) + 1, name, (region,)))
+    tags[rows] = first + 1 + which.reshape(-1)
+
+
+def option_number(options: Mapping[str, Any], key: str) -> Any:
+    """A number that a file gave, None where it gave none.
+
+    Raises:
+        InputError: it gave something else.
+    """
+    value = options.get(key)
+    if value is None:
+        return None
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"option {key} must be a number, got {value!r}") from None
+    return int(number) if key == "bc" else number

@@ -1,0 +1,84 @@
+"""The child process in which fTetWild runs: `python -P worker.py IN.npz OUT.npz`.
+
+It is a script of its own, run by path and without the rest of the package: fTetWild may crash, hang
+or end the process, and it starts sooner this way. Its extension module is loaded without its
+package, whose import takes longer than some meshes because it needs pyvista.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import signal
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+
+VERSION = "0.4.2"
+"""Of pytetwild, whose extension's arguments are given by place."""
+MISSING = 3
+"""Exit code: pytetwild is not installed."""
+PR_SET_PDEATHSIG = 1
+
+
+def extension() -> ModuleType:
+    """pytetwild's extension module.
+
+    Raises:
+        ImportError: pytetwild is not installed, or is another one.
+    """
+    package = importlib.util.find_spec("pytetwild")
+    if package is None or package.origin is None:
+        raise ImportError("pytetwild is not installed")
+    for file in sorted(Path(package.origin).parent.glob("PyfTetWildWrapper*")):
+        spec = importlib.util.spec_from_file_location("PyfTetWildWrapper", file)
+        if file.suffix in (".so", ".pyd") and spec is not None and spec.loader is not None:
+            module = importlib.util.module_from_spec(spec)
+            spec.loader.exec_module(module)
+            return module
+    raise ImportError("pytetwild has no extension module")
+
+
+def die_with_parent() -> None:
+    """Ask the system to end this process when its parent ends in whatever way."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def main(source: str, target: str) -> int:
+    die_with_parent()
+    try:
+        wrapper = extension()
+    except ImportError as error:
+        print(error, file=sys.stderr)
+        return MISSING
+    given = np.load(source)
+    points, tets = wrapper.tetrahedralize_mesh(
+        given["points"],
+        given["triangles"].astype(np.uint32),
+        True,  # optimize
+        not bool(given["simplify"]),
+        0.05,  # edge length relative to the diagonal: not used, an absolute one is given
+        float(given["edge_length"]),
+        float(given["epsilon"]),
+        float(given["stop_energy"]),
+        bool(given["coarsen"]),
+        int(given["threads"]),
+        int(given["iterations"]),
+        6,  # least log
+        True,  # quiet
+        True,  # VTK's order of vertices, else all tetrahedra are negative
+        True,  # no filter: with it sheets inside upset the winding number
+        given["field_points"],
+        given["field_tets"].astype(np.int32),
+        given["field_sizes"],
+    )
+    # savez writes in place: the parent reads only after this process has ended well
+    np.savez(target, points=points, tets=tets)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
