@@ -6,11 +6,13 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from decomp.cli import cells, convert, info, skeleton
+from decomp.cli import cells, check, convert, info, mesh, skeleton
 from decomp.errors import DecompError
 
 EXAMPLES = """\
 examples:
+  decomp mesh part.geo                 part.msh: a mesh with a name on every cell and face
+  decomp check part.geo part.msh       whether a mesh is one of its model
   decomp info part.geo                 what is in a model: volume, faces, edges
   decomp info part.csg --json          the same for programs
   decomp convert part.geo part.json    from Netgen or OpenSCAD to decomp's own form
@@ -19,15 +21,15 @@ examples:
 """
 
 INTERRUPTED = 130
-COMMANDS = (info, convert, skeleton, cells)
+COMMANDS = (mesh, check, info, skeleton, cells, convert)
 
 
 def parser() -> argparse.ArgumentParser:
     """The argument parser with all subcommands."""
     result = argparse.ArgumentParser(
         prog="decomp",
-        description="Exact boundaries and skeletons of solids defined by constructive solid "
-        "geometry (CSG).",
+        description="Meshes, exact boundaries and skeletons of solids defined by constructive "
+        "solid geometry (CSG).",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -45,7 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: without the program's name; by default those of the process.
 
     Returns:
-        0 on success, 1 to 3 for errors (see `decomp.errors`), 130 when interrupted.
+        0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted.
     """
     options = parser().parse_args(arguments)
     if options.version:

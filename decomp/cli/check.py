@@ -1,0 +1,108 @@
+"""`decomp check`: whether a mesh file is a mesh of its model."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import asdict
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from decomp.errors import DecompError
+
+if TYPE_CHECKING:
+    from decomp.tetra.check import Checked
+
+EPSILON, VOLUME_ERROR = 2e-3, 5e-3
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "check",
+        help="verify a mesh file against its model",
+        description="Verify a .msh file (Gmsh's format 4.1 or 2.2) against the CSG model that it "
+        "is a mesh of: elements, faces, groups and their names, volumes, nodes on their exact "
+        "surfaces, no tetrahedron across an interface. Each shortcoming is told in a line; if "
+        "there is any, the exit code is 1.",
+    )
+    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument("mesh", type=Path, help="Gmsh .msh")
+    parser.add_argument(
+        "--epsilon",
+        type=_share,
+        default=EPSILON,
+        metavar="E",
+        help="tetrahedra may reach 2 E into another cell, relative to the region's diagonal "
+        f"(default {EPSILON:g})",
+    )
+    parser.add_argument(
+        "--volume-error",
+        type=_share,
+        default=VOLUME_ERROR,
+        metavar="E",
+        help=f"of a region, relative, at most (default {VOLUME_ERROR:g})",
+    )
+    parser.add_argument(
+        "--unprojected",
+        type=int,
+        default=0,
+        metavar="N",
+        help="so many boundary nodes may be off their surface, as the report of `decomp mesh` "
+        "counts them (default 0)",
+    )
+    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Check, print, and fail if anything falls short.
+
+    Raises:
+        DecompError: the mesh falls short, or something cannot be read or computed.
+    """
+    from decomp.cli.computing import reporting
+    from decomp.tetra.check import check
+
+    with reporting(options.quiet) as tell:
+        found = check(
+            options.model,
+            options.mesh,
+            epsilon=options.epsilon,
+            volume_error=options.volume_error,
+            unprojected=options.unprojected,
+            progress=tell,
+        )
+    if options.json:
+        print(json.dumps(asdict(found), indent=1))
+    elif not options.quiet:
+        print("\n".join(as_text(found, options.mesh)))
+    if found.shortcomings:
+        count = len(found.shortcomings)
+        ways = "way" if count == 1 else "ways"
+        raise DecompError(f"{options.mesh} falls short of {options.model} in {count} {ways}")
+
+
+def as_text(found: Checked, path: Path) -> list[str]:
+    """What was found, as lines for people."""
+    lines = [
+        f"{path}: {found.tets} tetrahedra, {found.nodes} nodes, {found.groups} groups",
+        f"  volumes of regions within {found.volume_error:.1e}",
+        f"  boundary nodes within {found.off_surface:.1e} of their surface, {found.stray} off it",
+    ]
+    lines += [f"  FAILS: {line}" for line in found.shortcomings]
+    if not found.shortcomings:
+        lines.append("  nothing falls short")
+    return lines
+
+
+def _share(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
+    if not isfinite(value) or value <= 0:
+        raise argparse.ArgumentTypeError(f"must be above 0, not {text}")
+    return value

@@ -1,0 +1,200 @@
+"""`decomp mesh`: from a model file to a tagged mesh file."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from math import isfinite
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from decomp.tetra.mesh import TetMesh
+    from decomp.tetra.report import Report
+
+EXAMPLES = """\
+examples:
+  decomp mesh part.geo                          part.msh, sizes from the model
+  decomp mesh part.geo -o part.vtu              for ParaView
+  decomp mesh part.geo --size 2 --layers 3      edges up to 2, three elements across thin walls
+  decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
+  decomp mesh part.geo --volumes regions --no-sheets
+                                                one volume per region, no inner surfaces
+  decomp mesh part.geo --report part.json       figures for programs too
+"""
+TIMEOUT = 600.0
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    from decomp.cli.computing import add_options
+    from decomp.output.mesh import SUFFIXES
+
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "mesh",
+        help="a tetrahedral mesh with a name on every cell, face, interface and sheet",
+        description="Mesh a CSG model with tetrahedra that conform to its skeleton: every cell, "
+        "boundary face, interface and sheet is a physical group with a name, and nodes lie on the "
+        "exact surfaces.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_options(parser)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="OUT",
+        help=f"file to write, ending in {', '.join(SUFFIXES)}; may be given several times "
+        "(default: the model's name with .msh, in this directory)",
+    )
+    _size_options(parser)
+    _tag_options(parser)
+    _file_options(parser)
+    parser.set_defaults(run=run)
+
+
+def _size_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("size of elements")
+    group.add_argument(
+        "--size",
+        type=_positive,
+        metavar="H",
+        help="largest edge, in model units (default: from the model)",
+    )
+    group.add_argument(
+        "--layers",
+        type=_count,
+        metavar="N",
+        help="at least N elements across the local thickness",
+    )
+    group.add_argument(
+        "--circle",
+        type=_positive,
+        metavar="N",
+        help="at least N elements around a full circle",
+    )
+    group.add_argument(
+        "--order",
+        type=int,
+        choices=(1, 2),
+        default=1,
+        help="2: 10-node tetrahedra with curved sides (default 1)",
+    )
+
+
+def _tag_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("physical groups")
+    group.add_argument(
+        "--cells",
+        choices=("skeleton", "face"),
+        default="skeleton",
+        help="skeleton: what the skeleton alone bounds (default); face: one cell for each face",
+    )
+    group.add_argument(
+        "--volumes",
+        choices=("cells", "regions"),
+        default="cells",
+        help="one volume for each cell (default) or for each region",
+    )
+    group.add_argument(
+        "--no-sheets", dest="sheets", action="store_false", help="tag no triangles between cells"
+    )
+
+
+def _file_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("files and limits")
+    kind = group.add_mutually_exclusive_group()
+    kind.add_argument("--ascii", action="store_true", help=".msh 4.1 as text (default: binary)")
+    kind.add_argument("--msh2", action="store_true", help=".msh in Gmsh's format 2.2, as text")
+    group.add_argument(
+        "--report", type=Path, metavar="FILE.json", help="write all figures to a JSON file"
+    )
+    group.add_argument(
+        "--timeout",
+        type=_positive,
+        default=TIMEOUT,
+        metavar="S",
+        help=f"seconds that TetWild may take (default {TIMEOUT:g})",
+    )
+
+
+def run(options: argparse.Namespace) -> None:
+    """Check the outputs, mesh, write, print."""
+    from decomp.output.mesh import suffix_of, write
+    from decomp.output.whole_file import check_target, write_whole
+    from decomp.tetra.report import as_json, as_text
+
+    outputs = options.output or [Path(options.model.with_suffix(".msh").name)]
+    for path in outputs:
+        suffix_of(path)
+        check_target(path)
+    if options.report is not None:
+        check_target(options.report)
+    mesh, figures = meshed(options)
+    for path in outputs:
+        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
+    if options.report is not None:
+        text = json.dumps(as_json(figures), indent=1, ensure_ascii=False) + "\n"
+        write_whole(options.report, text.encode())
+    if not options.quiet:
+        print("\n".join(as_text(figures)))
+        print(f"  written: {', '.join(str(path) for path in outputs)}")
+
+
+def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
+    """Load the model and mesh it, with signs of life.
+
+    Raises:
+        DecompError: the model cannot be read, is no solid, or cannot be meshed.
+    """
+    from decomp.cli.computing import reporting
+    from decomp.cli.stages import Stages
+    from decomp.formats import load
+    from decomp.geometry import Geometry
+    from decomp.meshing import mesh
+    from decomp.tetra.report import report
+
+    with reporting(options.quiet) as tell:
+        stages = Stages(tell)
+        stages("reading", 0.0)
+        model = load(options.model)
+        stages("boundary", 0.0)
+        geometry = Geometry(model)
+        made = mesh(
+            geometry,
+            size=options.size,
+            layers=options.layers,
+            elements_per_circle=options.circle,
+            order=options.order,
+            cells=options.cells,
+            volumes=options.volumes,
+            sheets=options.sheets,
+            tolerance=options.tolerance,
+            timeout=options.timeout,
+            progress=stages,
+        )
+        spent = stages.spent()
+    return made, report(made, {each.name: each.volume for each in geometry.regions}, spent)
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
+    if not isfinite(value) or value <= 0:
+        raise argparse.ArgumentTypeError(f"must be above 0, not {text}")
+    return value
+
+
+def _count(text: str) -> int:
+    try:
+        value = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"must be 1 or more, not {text}")
+    return value

@@ -1,0 +1,231 @@
+"""Whether a mesh is a mesh of its model: what falls short, one line for each.
+
+1. By itself: elements the right way round, faces, tags (`check_structure`).
+2. Its names are the model's (`check_names`).
+3. Regions have their volumes.
+4. Nodes of boundary triangles are on their surfaces.
+5. No tetrahedron reaches out of its region or cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from decomp.certificate.distance import triangle_distance, triangle_tree
+from decomp.compute import skeleton
+from decomp.csg.model import Model
+from decomp.csg.solid import Solid
+from decomp.geometry import Geometry
+from decomp.medial.result import Skeleton
+from decomp.tetra.cells import CellMap, cell_map
+from decomp.tetra.check_names import Names, name_shortcomings, resolved
+from decomp.tetra.check_structure import structural_shortcomings
+from decomp.tetra.mesh import TetMesh
+from decomp.tetra.msh_reader import ReadMesh, read_msh
+from decomp.tetra.quality import volumes
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array, Ints, place
+
+EPSILON = 2e-3
+"""Default of what meshes may leave their cells by, relative to the region's diagonal."""
+VOLUME_ERROR = 5e-3
+REACH = 2.0
+"""Tetrahedra may reach so many epsilons into a cell that is not theirs."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What was found.
+
+    Args:
+        shortcomings: one line each; none if the mesh is right.
+        tets, nodes, groups: how many it has.
+        volume_error: the largest of a region, relative.
+        off_surface: largest distance of a boundary node from its surface, in model units.
+        stray: boundary nodes that are off their surface.
+    """
+
+    shortcomings: tuple[str, ...]
+    tets: int
+    nodes: int
+    groups: int
+    volume_error: float
+    off_surface: float
+    stray: int
+
+
+def check(
+    source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
+    mesh: TetMesh | ReadMesh | str | Path,
+    *,
+    epsilon: float = EPSILON,
+    volume_error: float = VOLUME_ERROR,
+    unprojected: int = 0,
+    progress: Callable[[str, float], None] | None = None,
+) -> Checked:
+    """Compare a mesh with its model.
+
+    Args:
+        source: a geometry, or what one can be made of.
+        mesh: a mesh, or the path of a .msh file.
+        epsilon: the mesh may be off the exact cells by so much, relative to a region's diagonal.
+        volume_error: of a region, relative, at most.
+        unprojected: so many nodes of the boundary may be off their surfaces (the report of
+            `decomp.mesh` counts them).
+        progress: told what is being done, and which part of the whole (0 to 1) is behind.
+
+    Raises:
+        FileError: a file cannot be read.
+        GeometryError: the model's geometry or skeleton cannot be computed.
+    """
+    tell = progress or (lambda what, done: None)
+    tell("reading the mesh", 0.0)
+    read = _as_read(mesh)
+    tell("computing the boundary", 0.05)
+    geometry = source if isinstance(source, Geometry) else Geometry(source)
+    names = resolved(read.names, geometry)
+    tell("looking at elements and faces", 0.1)
+    lines = list(structural_shortcomings(read))
+    found, cells = None, None
+    if names.cells:
+        found = skeleton(geometry, progress=lambda what, done: tell(what, 0.2 + 0.6 * done))
+        cells = _cells_meant(found, names)
+    tell("comparing with the model", 0.8)
+    known = [cell.name for cell in cells.cells] if cells else []
+    lines += name_shortcomings(names, geometry, known)
+    worst, more = _volumes(read, names, geometry, volume_error)
+    lines += more
+    off, stray, more = _surfaces(read, names, geometry, unprojected)
+    lines += more
+    tell("looking across interfaces", 0.9)
+    lines += _reaching(read, names, geometry, found, cells, epsilon)
+    return Checked(
+        tuple(lines), len(read.tets), len(read.points), len(read.names), worst, off, stray
+    )
+
+
+def _as_read(mesh: TetMesh | ReadMesh | str | Path) -> ReadMesh:
+    if isinstance(mesh, ReadMesh):
+        return mesh
+    if not isinstance(mesh, TetMesh):
+        return read_msh(mesh)
+    names = {(group.dimension, group.tag): group.name for group in mesh.groups}
+    return ReadMesh(
+        mesh.points, mesh.tets, mesh.tet_tags, mesh.triangles, mesh.triangle_tags, names
+    )
+
+
+def _cells_meant(found: Skeleton, names: Names) -> CellMap:
+    """The skeleton's cells or its face cells, whichever more of the names are of."""
+    given = set(names.cells.values())
+    maps = [cell_map(found, by_face) for by_face in (False, True)]
+    return max(maps, key=lambda cells: len(given & {cell.name for cell in cells.cells}))
+
+
+def _regions(tags: Ints, names: Names, geometry: Geometry) -> Ints:
+    """The region (m,) that each tetrahedron is tagged with, -1 for none."""
+    number = {region.name: k for k, region in enumerate(geometry.regions)}
+    table = dict(names.regions)
+    table |= {tag: number.get(name.split("/")[0], -1) for tag, name in names.cells.items()}
+    found, which = np.unique(tags, return_inverse=True)
+    return np.array([table.get(int(tag), -1) for tag in found])[which.reshape(-1)]
+
+
+def _volumes(
+    mesh: ReadMesh, names: Names, geometry: Geometry, most: float
+) -> tuple[float, list[str]]:
+    regions = _regions(mesh.tet_tags, names, geometry)
+    contents = volumes(mesh.points, mesh.tets)
+    worst, lines = 0.0, []
+    for number, region in enumerate(geometry.regions):
+        content = float(contents[regions == number].sum())
+        error = abs(content / region.volume - 1)
+        worst = max(worst, error)
+        if error > most:
+            lines.append(
+                f"region {region.name} has volume {content:.9g} in place of {region.volume:.9g}: "
+                f"off by {error:.2g}, more than {most:g}"
+            )
+    return worst, lines
+
+
+def _surfaces(
+    mesh: ReadMesh, names: Names, geometry: Geometry, allowed: int
+) -> tuple[float, int, list[str]]:
+    """Largest distance of boundary nodes from their surfaces, how many are off, shortcomings."""
+    off = np.zeros(len(mesh.points))
+    for tag, sides in names.faces.items():
+        nodes = np.unique(mesh.triangles[mesh.triangle_tags == tag])
+        for region, face in sides:
+            boundary = geometry.regions[region]
+            carrier = boundary.carriers[boundary.faces[face].carrier]
+            far = np.abs(carrier.signed_distance(mesh.points[nodes]))
+            off[nodes] = np.maximum(off[nodes], far)
+    stray = int((off > TOLERANCE * geometry.diagonal).sum())
+    worst = int(np.argmax(off))
+    lines = []
+    if stray > allowed:
+        lines.append(
+            f"{stray} boundary nodes are off their surface, by up to {off[worst]:.2g} "
+            f"at {place(mesh.points[worst])}" + (f" ({allowed} may be)" if allowed else "")
+        )
+    return float(off[worst]), stray, lines
+
+
+def _reaching(
+    mesh: ReadMesh,
+    names: Names,
+    geometry: Geometry,
+    found: Skeleton | None,
+    cells: CellMap | None,
+    epsilon: float,
+) -> Iterator[str]:
+    """Tetrahedra with a node more than `REACH` epsilons inside a cell that is not theirs."""
+    own_region = _regions(mesh.tet_tags, names, geometry)
+    nearest = geometry.index.nearest(mesh.points)
+    limit = REACH * epsilon * np.array([region.diagonal for region in geometry.regions])
+    at = nearest.region[mesh.tets]
+    wrong = (at != own_region[:, None]) & (own_region[:, None] >= 0)
+    deep = wrong & (nearest.distance[mesh.tets] > limit[own_region][:, None])
+    yield from _told(mesh, np.flatnonzero(deep.any(axis=1)), "region")
+    if found is None or cells is None:
+        return
+    number = {cell.name: k for k, cell in enumerate(cells.cells)}
+    table = {tag: number.get(name, -1) for tag, name in names.cells.items()}
+    tags, which = np.unique(mesh.tet_tags, return_inverse=True)
+    own = np.array([table.get(int(tag), -1) for tag in tags])[which.reshape(-1)]
+    cell = np.where(nearest.region < 0, -1, cells.of_site[nearest.site])
+    wrong = (cell[mesh.tets] != own[:, None]) & (at == own_region[:, None]) & (own[:, None] >= 0)
+    nodes = np.unique(mesh.tets[wrong])
+    depth = np.zeros(len(mesh.points))
+    depth[nodes] = _depth(found, cells, mesh.points[nodes], nearest.region[nodes])
+    deep = wrong & (depth[mesh.tets] > limit[own_region][:, None])
+    yield from _told(mesh, np.flatnonzero(deep.any(axis=1)), "cell")
+
+
+def _depth(found: Skeleton, cells: CellMap, points: Array, regions: Ints) -> Array:
+    """Distance (n,) of points to what parts the cells of their region."""
+    mesh = found.complex
+    result = np.zeros(len(points))
+    for number, region in enumerate(found.regions):
+        rows = np.flatnonzero(regions == number)
+        own = [cell for cell, r in zip(cells.cells, cells.region, strict=True) if r == number]
+        outer = {patch for sides in region.face_sides for patch, _ in sides}
+        patches = sorted({patch for cell in own for patch, _ in cell.sides} - outer)
+        corners = [mesh.points[mesh.patches[patch].triangles] for patch in patches]
+        tree = triangle_tree(np.concatenate([np.empty((0, 3, 3)), *corners]))
+        result[rows] = triangle_distance(tree, points[rows])
+    return result
+
+
+def _told(mesh: ReadMesh, rows: Ints, what: str) -> Iterator[str]:
+    if len(rows):
+        middle = mesh.points[mesh.tets[rows[0], :4]].mean(axis=0)
+        yield (
+            f"{len(rows)} tetrahedra reach more than {REACH:g} epsilon into a {what} that is not "
+            f"theirs, the first near {place(middle)}"
+        )

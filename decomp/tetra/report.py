@@ -1,0 +1,258 @@
+"""What a mesh has and how good it is, as values, text and JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from decomp.tetra.mesh import Group, GroupKind, TetMesh
+from decomp.tetra.quality import dihedral_angles, inverted, radius_ratios, volumes
+from decomp.vectors import Ints
+
+
+@dataclass(frozen=True)
+class Volume:
+    """A region or a cell.
+
+    Args:
+        name: of it.
+        region: that it is, or is in.
+        faces: of the boundary that a cell has.
+        tets: how many.
+        volume: of the tetrahedra.
+        exact: the region's, or that of the cell inside the skeleton's complex; None if unknown.
+        maxh: what the input asks for.
+    """
+
+    name: str
+    region: str
+    faces: tuple[str, ...]
+    tets: int
+    volume: float
+    exact: float | None
+    maxh: float | None
+
+    @property
+    def error(self) -> float | None:
+        """Relative to the exact volume, with its sign."""
+        return None if not self.exact else self.volume / self.exact - 1
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A group of triangles."""
+
+    name: str
+    kind: str
+    regions: tuple[str, ...]
+    triangles: int
+    bc: int | None
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Of all tetrahedra, by their corners; angles in degrees.
+
+    Args:
+        least_dihedral: of all.
+        greatest_dihedral: of all.
+        mean_dihedral: of all six of all.
+        mean_least_dihedral: mean of each one's least.
+        least_radius_ratio, mean_radius_ratio: 3 r / R, 1 for regular ones.
+        inverted: with a Jacobian of zero or less at a point of integration.
+    """
+
+    least_dihedral: float
+    greatest_dihedral: float
+    mean_dihedral: float
+    mean_least_dihedral: float
+    least_radius_ratio: float
+    mean_radius_ratio: float
+    inverted: int
+
+
+@dataclass(frozen=True)
+class Report:
+    """A mesh in figures.
+
+    Args:
+        model: its name.
+        order: of the elements.
+        nodes, tets, triangles: how many.
+        regions, cells, surfaces: in the order of their groups.
+        quality: of the tetrahedra.
+        unprojected: nodes that are not on their exact surfaces.
+        stages: what was done, and for how many seconds.
+    """
+
+    model: str
+    order: int
+    nodes: int
+    tets: int
+    triangles: int
+    regions: tuple[Volume, ...]
+    cells: tuple[Volume, ...]
+    surfaces: tuple[Surface, ...]
+    quality: Quality
+    unprojected: int
+    stages: tuple[tuple[str, float], ...]
+
+
+def report(
+    mesh: TetMesh,
+    exact: Mapping[str, float] | None = None,
+    stages: Sequence[tuple[str, float]] = (),
+) -> Report:
+    """Measure a mesh.
+
+    Args:
+        mesh: to measure.
+        exact: volumes of regions by name, where its groups do not know them.
+        stages: what was done to make it, and for how many seconds.
+    """
+    contents = volumes(mesh.points, mesh.tets)
+    solids = [group for group in mesh.groups if group.dimension == 3]
+    cells = []
+    for group in solids:
+        own = mesh.tet_tags == group.tag
+        cells.append(_volume(group, int(own.sum()), float(contents[own].sum())))
+    surfaces = tuple(
+        Surface(
+            group.name,
+            group.kind.value,
+            group.regions,
+            int((mesh.triangle_tags == group.tag).sum()),
+            group.bc,
+        )
+        for group in mesh.groups
+        if group.dimension == 2
+    )
+    whole = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.REGION]
+    parts = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.CELL]
+    return Report(
+        mesh.name,
+        mesh.order,
+        len(mesh.points),
+        len(mesh.tets),
+        len(mesh.triangles),
+        (*whole, *_joined(parts, exact or {})),
+        tuple(parts),
+        surfaces,
+        _quality(mesh),
+        len(mesh.unprojected),
+        tuple(stages),
+    )
+
+
+def _volume(group: Group, tets: int, content: float) -> Volume:
+    region = group.regions[0]
+    return Volume(group.name, region, group.faces, tets, content, group.volume, group.maxh)
+
+
+def _joined(cells: Sequence[Volume], exact: Mapping[str, float]) -> list[Volume]:
+    """The regions that consist of cells."""
+    result = []
+    for name in dict.fromkeys(cell.region for cell in cells):
+        own = [cell for cell in cells if cell.region == name]
+        content, tets = sum(cell.volume for cell in own), sum(cell.tets for cell in own)
+        result.append(Volume(name, name, (), tets, content, exact.get(name), own[0].maxh))
+    return result
+
+
+def _quality(mesh: TetMesh) -> Quality:
+    angles = dihedral_angles(mesh.points, mesh.tets)
+    ratios = radius_ratios(mesh.points, mesh.tets)
+    return Quality(
+        float(angles.min()),
+        float(angles.max()),
+        float(angles.mean()),
+        float(angles.min(axis=1).mean()),
+        float(ratios.min()),
+        float(ratios.mean()),
+        int(inverted(mesh.points, mesh.tets).sum()),
+    )
+
+
+def as_json(found: Report) -> dict[str, Any]:
+    """A report as JSON values; volumes and lengths in the model's units, times in seconds."""
+    result = asdict(found)
+    for key, values in (("regions", found.regions), ("cells", found.cells)):
+        for entry, value in zip(result[key], values, strict=True):
+            entry["error"] = value.error
+    result["stages"] = [{"stage": what, "seconds": seconds} for what, seconds in found.stages]
+    result["seconds"] = sum(seconds for _, seconds in found.stages)
+    result["tets_per_cell"] = _spread([cell.tets for cell in found.cells])
+    return result
+
+
+def _spread(counts: Sequence[int]) -> dict[str, float] | None:
+    if not counts:
+        return None
+    values: Ints = np.array(counts)
+    return {
+        "least": int(values.min()),
+        "median": float(np.median(values)),
+        "greatest": int(values.max()),
+    }
+
+
+def as_text(found: Report) -> list[str]:
+    """A report as lines for people."""
+    lines = [
+        f"model {found.model}: {found.tets} tetrahedra of order {found.order}, "
+        f"{found.nodes} nodes, {found.triangles} tagged triangles"
+    ]
+    for region in found.regions:
+        cells = sum(cell.region == region.name for cell in found.cells)
+        inside = f" in {_plural(cells, 'cell')}" if cells else ""
+        lines.append(
+            f"  region {region.name}: {region.tets} tetrahedra{inside}, volume "
+            f"{region.volume:.9g}{_error(region)}"
+        )
+    if found.cells:
+        spread = _spread([cell.tets for cell in found.cells])
+        errors = [abs(cell.error) for cell in found.cells if cell.error is not None]
+        worst = f", volumes within {max(errors):.1e} of the skeleton's" if errors else ""
+        assert spread is not None
+        lines.append(
+            f"  tetrahedra per cell: {spread['least']} to {spread['greatest']}, "
+            f"median {spread['median']:g}{worst}"
+        )
+    kinds = [surface.kind for surface in found.surfaces]
+    counted = [(kinds.count(kind.value), kind.value) for kind in GroupKind if kind.value in kinds]
+    lines.append(f"  surfaces: {', '.join(_plural(n, kind) for n, kind in counted)}")
+    quality = found.quality
+    lines += [
+        f"  dihedral angles {quality.least_dihedral:.1f} to {quality.greatest_dihedral:.1f} "
+        f"degrees, mean of the least {quality.mean_least_dihedral:.1f}",
+        f"  radius ratios from {quality.least_radius_ratio:.3f}, "
+        f"mean {quality.mean_radius_ratio:.3f}; {quality.inverted} inverted",
+        f"  nodes left off their exact surfaces: {found.unprojected}",
+    ]
+    lines += [
+        f"  cell {cell.name}: {', '.join(cell.faces)}"
+        for cell in found.cells
+        if "+".join(cell.faces) != cell.name.removeprefix(f"{cell.region}/")
+    ]
+    if found.stages:
+        lines.append("  " + _times(found.stages))
+    return lines
+
+
+def _times(stages: Sequence[tuple[str, float]]) -> str:
+    total = sum(seconds for _, seconds in stages)
+    parts = ", ".join(f"{what} {seconds:.1f}" for what, seconds in stages if seconds >= 0.05)
+    return f"{total:.1f} s: {parts}" if parts else f"{total:.1f} s"
+
+
+def _error(volume: Volume) -> str:
+    if volume.exact is None or volume.error is None:
+        return ""
+    return f" (exact {volume.exact:.9g}, off by {volume.error:+.1e})"
+
+
+def _plural(count: int, noun: str) -> str:
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
