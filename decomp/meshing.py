@@ -14,17 +14,16 @@ from typing import Literal
 
 import numpy as np
 
-from decomp.compute import TOLERANCE, skeleton
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
-from decomp.medial.result import Skeleton
 from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, tetrahedralized
 from decomp.tetra.classify import classified, region_of
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
+from decomp.tetra.surface import SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.vectors import Array, Ints
 
@@ -41,10 +40,9 @@ def mesh(
     cells: Literal["skeleton", "face"] = "skeleton",
     volumes: Literal["cells", "regions"] = "cells",
     sheets: bool = True,
-    tolerance: float = TOLERANCE,
+    tolerance: float = 1e-3,
     timeout: float = 600.0,
     progress: Progress | None = None,
-    of: Skeleton | None = None,
 ) -> TetMesh:
     """Mesh a model.
 
@@ -57,10 +55,9 @@ def mesh(
         cells: `skeleton`, or `face` for one cell for each boundary face.
         volumes: `cells`, or `regions` for one physical volume for each region.
         sheets: whether triangles between the cells of a region are tagged.
-        tolerance: of the skeleton's triangles, relative to the model's diagonal.
+        tolerance: of the triangles that TetWild gets, relative to the model's diagonal.
         timeout: seconds that TetWild may take.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
-        of: the model's skeleton, where it is known.
 
     Raises:
         InputError: an option is out of its range.
@@ -70,10 +67,10 @@ def mesh(
     """
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
-    made = of or skeleton(geometry, tolerance, lambda what, done: tell(what, 0.4 * done))
-    by_face = cells == "face"
-    known = cell_map(made, by_face)
-    plan = layout(made, known, by_face)
+    maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
+    made = maker.made(tolerance * geometry.diagonal, cells == "face")
+    known = cell_map(made)
+    plan = layout(made, known)
     edge = size or geometry.diagonal / 20
     settings = Settings(edge, min(2e-3 * geometry.diagonal, edge / 6))
     tell("TetWild", 0.4)

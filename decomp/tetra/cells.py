@@ -9,8 +9,9 @@ import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.geometry import Geometry
-from decomp.medial.result import Cell, Skeleton
+from decomp.medial.result import Cell
 from decomp.sites.site import Site, SiteKind
+from decomp.tetra.surface import MeshSurface
 from decomp.vectors import Array, Ints
 
 OUTSIDE = -1
@@ -51,34 +52,29 @@ class Located:
     foot: Array
 
 
-def cell_map(skeleton: Skeleton, by_face: bool) -> CellMap:
-    """Number the skeleton's cells, or its face cells.
-
-    Args:
-        skeleton: of the model.
-        by_face: whether face cells are meant.
-    """
+def cell_map(surface: MeshSurface) -> CellMap:
+    """Number the cells of all regions."""
     cells: list[Cell] = []
     region: list[int] = []
     of_face: dict[tuple[int, int], int] = {}
-    for number, each in enumerate(skeleton.regions):
+    for number, each in enumerate(surface.regions):
         names = {face.name: k for k, face in enumerate(each.boundary.faces)}
-        for cell in each.face_cells if by_face else each.cells:
+        for cell in each.cells:
             for name in cell.faces:
                 of_face[number, names[name]] = len(cells)
             cells.append(cell)
             region.append(number)
-    owner = site_owners(skeleton.sites, [each.boundary for each in skeleton.regions])
+    owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
     of_site = [
         OUTSIDE if site.region < 0 else of_face[site.region, int(face)]
-        for site, face in zip(skeleton.sites, owner, strict=True)
+        for site, face in zip(surface.sites, owner, strict=True)
     ]
     return CellMap(
         tuple(cells),
         np.array(region, dtype=np.int64),
         np.array(of_site, dtype=np.int64),
         owner,
-        len(skeleton.regions),
+        len(surface.regions),
     )
 
 

@@ -10,10 +10,10 @@ import numpy as np
 from decomp.complex.model import PatchKind
 from decomp.errors import InputError
 from decomp.geometry import Geometry
-from decomp.medial.result import Skeleton
 from decomp.tetra.cells import OUTSIDE, CellMap
 from decomp.tetra.layout import Layout
 from decomp.tetra.mesh import Group, GroupKind
+from decomp.tetra.surface import MeshSurface
 from decomp.tetra.tagging import Tagged
 from decomp.vectors import Ints
 
@@ -55,7 +55,7 @@ def region_groups(geometry: Geometry) -> list[Group]:
 
 def surface_groups(
     geometry: Geometry,
-    skeleton: Skeleton,
+    surface: MeshSurface,
     cells: CellMap,
     plan: Layout,
     tagged: Tagged,
@@ -66,7 +66,7 @@ def surface_groups(
     Every face and interface of the model has a group, a pair of cells where triangles part them.
 
     Args:
-        geometry, skeleton, cells, plan: of the model.
+        geometry, surface, cells, plan: of the model.
         tagged: the triangles.
         sheets: whether sheets get groups.
     """
@@ -98,12 +98,12 @@ def surface_groups(
         tag_of_patch[patch] = of_face[sides]
     tags = tag_of_patch[tagged.patches]
     if sheets:
-        _sheet_groups(skeleton, cells, plan, tagged, groups, tags)
+        _sheet_groups(surface, cells, plan, tagged, groups, tags)
     return groups, tags
 
 
 def _sheet_groups(
-    skeleton: Skeleton,
+    surface: MeshSurface,
     cells: CellMap,
     plan: Layout,
     tagged: Tagged,
@@ -118,7 +118,7 @@ def _sheet_groups(
     pairs, which = np.unique(tagged.cells[rows], axis=0, return_inverse=True)
     first = len(groups)
     for low, high in pairs.tolist():
-        region = skeleton.regions[int(cells.region[low])].name
+        region = surface.regions[int(cells.region[low])].name
         one, two = (cells.cells[k].name.removeprefix(f"{region}/") for k in (low, high))
         name = f"{region}/{one}|{two}"
         groups.append(Group(GroupKind.SHEET, len(groups) + 1, name, (region,)))

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.complex.model import Complex, PatchKind
-from decomp.medial.result import Skeleton
+from decomp.complex.model import Complex
 from decomp.tetra.cells import CellMap
+from decomp.tetra.surface import MeshSurface
 from decomp.vectors import Array, Ints, norm
 
 TRIANGLE_EDGES = np.array([[0, 1], [1, 2], [2, 0]])
@@ -26,17 +26,15 @@ class Layout:
 
     Args:
         complex: of the skeleton.
-        kept: numbers of the patches that the mesh conforms to: all, or all but trim surfaces.
         sides: for each patch the faces that it is part of, by ascending region; none for sheets.
         between: for each pair of cells of one region, lower first, the patches between them.
         inside: patches that have one cell on both their sides, with the cell.
-        around_line: for each line the kept patches that meet along it, ascending.
+        around_line: for each line the patches that meet along it, ascending.
         corners: (k,) points at which lines end or more patches meet than along any line there.
-        around_corner: for each corner the kept patches that meet there, ascending.
+        around_corner: for each corner the patches that meet there, ascending.
     """
 
     complex: Complex
-    kept: tuple[int, ...]
     sides: tuple[tuple[Side, ...], ...]
     between: dict[tuple[int, int], tuple[int, ...]]
     inside: dict[int, int]
@@ -47,17 +45,14 @@ class Layout:
     @property
     def triangles(self) -> Ints:
         """(m, 3) all triangles that the mesh conforms to."""
-        return np.concatenate([self.complex.patches[k].triangles for k in self.kept])
+        return np.concatenate([patch.triangles for patch in self.complex.patches])
 
 
-def layout(skeleton: Skeleton, cells: CellMap, by_face: bool) -> Layout:
-    """Lay out a skeleton's complex for its cells (`by_face`: its face cells)."""
-    mesh = skeleton.complex
-    kept = tuple(
-        k for k, patch in enumerate(mesh.patches) if by_face or patch.kind is not PatchKind.TRIM
-    )
+def layout(surface: MeshSurface, cells: CellMap) -> Layout:
+    """Lay out a complex for its cells."""
+    mesh = surface.complex
     sides: list[list[Side]] = [[] for _ in mesh.patches]
-    for number, region in enumerate(skeleton.regions):
+    for number, region in enumerate(surface.regions):
         for face, own in enumerate(region.face_sides):
             for patch, _ in own:
                 sides[patch].append((number, face))
@@ -67,7 +62,7 @@ def layout(skeleton: Skeleton, cells: CellMap, by_face: bool) -> Layout:
             on.setdefault(patch, []).append(number)
     between: dict[tuple[int, int], list[int]] = {}
     inside = {}
-    for patch in kept:
+    for patch in range(len(mesh.patches)):
         if sides[patch] or patch not in on:
             continue
         low, high = min(on[patch]), max(on[patch])
@@ -75,15 +70,14 @@ def layout(skeleton: Skeleton, cells: CellMap, by_face: bool) -> Layout:
             inside[patch] = low
         else:
             between.setdefault((low, high), []).append(patch)
-    around = _around_edges(mesh, kept)
+    around = _around_edges(mesh)
     lines = tuple(
         around.get((int(min(line.vertices[:2])), int(max(line.vertices[:2]))), ())
         for line in mesh.lines
     )
-    corners, at_corner = _corners(mesh, kept, lines)
+    corners, at_corner = _corners(mesh, lines)
     return Layout(
         mesh,
-        kept,
         tuple(tuple(sorted(own)) for own in sides),
         {pair: tuple(own) for pair, own in between.items()},
         inside,
@@ -93,7 +87,7 @@ def layout(skeleton: Skeleton, cells: CellMap, by_face: bool) -> Layout:
     )
 
 
-def _around_edges(mesh: Complex, kept: Sequence[int]) -> dict[tuple[int, int], tuple[int, ...]]:
+def _around_edges(mesh: Complex) -> dict[tuple[int, int], tuple[int, ...]]:
     """For each segment of a line the patches whose triangles have it."""
     wanted = {
         (int(min(pair)), int(max(pair)))
@@ -101,16 +95,16 @@ def _around_edges(mesh: Complex, kept: Sequence[int]) -> dict[tuple[int, int], t
         for pair in zip(line.vertices[:-1], line.vertices[1:], strict=True)
     }
     found: dict[tuple[int, int], set[int]] = {}
-    for patch in kept:
-        edges = np.sort(mesh.patches[patch].triangles[:, TRIANGLE_EDGES].reshape(-1, 2), axis=1)
+    for patch, own in enumerate(mesh.patches):
+        edges = np.sort(own.triangles[:, TRIANGLE_EDGES].reshape(-1, 2), axis=1)
         for pair in map(tuple, np.unique(edges, axis=0).tolist()):
             if pair in wanted:
                 found.setdefault(pair, set()).add(patch)
-    return {pair: tuple(sorted(own)) for pair, own in found.items()}
+    return {pair: tuple(sorted(these)) for pair, these in found.items()}
 
 
 def _corners(
-    mesh: Complex, kept: Sequence[int], lines: Sequence[tuple[int, ...]]
+    mesh: Complex, lines: Sequence[tuple[int, ...]]
 ) -> tuple[Ints, tuple[tuple[int, ...], ...]]:
     ends = sorted(
         {
@@ -123,8 +117,8 @@ def _corners(
     found: dict[int, set[int]] = {vertex: set() for vertex in ends}
     is_end = np.zeros(len(mesh.points), dtype=np.bool_)
     is_end[ends] = True
-    for patch in kept:
-        used = np.unique(mesh.patches[patch].triangles)
+    for patch, own in enumerate(mesh.patches):
+        used = np.unique(own.triangles)
         for vertex in used[is_end[used]].tolist():
             found[vertex].add(patch)
     return np.array(ends, dtype=np.int64), tuple(tuple(sorted(found[v])) for v in ends)

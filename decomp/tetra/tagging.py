@@ -8,11 +8,11 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.geometry import Geometry
-from decomp.medial.result import Skeleton
 from decomp.tetra.cells import OUTSIDE, CellMap, locate
 from decomp.tetra.classify import region_of
 from decomp.tetra.faces import NONE, Faces
 from decomp.tetra.layout import Layout, samples
+from decomp.tetra.surface import MeshSurface
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 ASIDE = 0.5
@@ -41,7 +41,7 @@ class Tagger:
     """Finds the patches of triangles.
 
     Args:
-        geometry, skeleton: of the model.
+        geometry, surface: of the model.
         cells: the cells that tetrahedra were classified by.
         plan: the complex laid out for them.
         epsilon: how far the mesh may be off the complex.
@@ -50,12 +50,12 @@ class Tagger:
     def __init__(
         self,
         geometry: Geometry,
-        skeleton: Skeleton,
+        surface: MeshSurface,
         cells: CellMap,
         plan: Layout,
         epsilon: float,
     ) -> None:
-        self._geometry, self._skeleton, self._cells = geometry, skeleton, cells
+        self._geometry, self._surface, self._cells = geometry, surface, cells
         self._plan, self._epsilon = plan, epsilon
 
     def tagged(self, points: Array, label: Ints, faces: Faces) -> Tagged:
@@ -115,7 +115,7 @@ class Tagger:
         best = np.full(len(triangles), -1, dtype=np.int64)
         least = np.full(len(triangles), np.inf)
         for region in np.unique(regions).tolist():
-            boundary = self._skeleton.regions[region].boundary
+            boundary = self._surface.regions[region].boundary
             for face in range(len(boundary.faces)):
                 rows = np.flatnonzero(
                     (regions == region) & ((candidates == face) & own).any(axis=1)
@@ -134,7 +134,7 @@ class Tagger:
 
     def _cost(self, region: int, face: int, corners: Array, normal: Array) -> Array:
         """How badly (k,) triangles fit a face."""
-        boundary = self._skeleton.regions[region].boundary
+        boundary = self._surface.regions[region].boundary
         carrier = boundary.carriers[boundary.faces[face].carrier]
         outward = boundary.faces[face].outward * carrier.normal(carrier.foot(corners.mean(axis=1)))
         off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._epsilon
