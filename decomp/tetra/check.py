@@ -9,26 +9,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from decomp.certificate.distance import triangle_distance, triangle_tree
 from decomp.compute import skeleton
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
-from decomp.medial.result import Skeleton
-from decomp.tetra.cells import CellMap, cell_map
+from decomp.tetra.check_cells import KnownCells, known_cells
 from decomp.tetra.check_names import Names, name_shortcomings, resolved
-from decomp.tetra.check_structure import structural_shortcomings
+from decomp.tetra.check_structure import counted, structural_shortcomings
+from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
 from decomp.tetra.quality import volumes
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Ints, place
+from decomp.vectors import Ints, place
 
 EPSILON = 2e-3
 """Default of what meshes may leave their cells by, relative to the region's diagonal."""
@@ -90,19 +89,19 @@ def check(
     names = resolved(read.names, geometry)
     tell("looking at elements and faces", 0.1)
     lines = list(structural_shortcomings(read))
-    found, cells = None, None
+    cells = None
     if names.cells:
         found = skeleton(geometry, progress=lambda what, done: tell(what, 0.2 + 0.6 * done))
-        cells = _cells_meant(found, names)
+        cells = known_cells(found, set(names.cells.values()))
     tell("comparing with the model", 0.8)
-    known = [cell.name for cell in cells.cells] if cells else []
-    lines += name_shortcomings(names, geometry, known)
+    lines += name_shortcomings(names, geometry, cells.names if cells else [])
+    lines += _bare_interfaces(read, names, geometry)
     worst, more = _volumes(read, names, geometry, volume_error)
     lines += more
     off, stray, more = _surfaces(read, names, geometry, unprojected)
     lines += more
     tell("looking across interfaces", 0.9)
-    lines += _reaching(read, names, geometry, found, cells, epsilon)
+    lines += _reaching(read, names, geometry, cells, epsilon)
     return Checked(
         tuple(lines), len(read.tets), len(read.points), len(read.names), worst, off, stray
     )
@@ -119,20 +118,27 @@ def _as_read(mesh: TetMesh | ReadMesh | str | Path) -> ReadMesh:
     )
 
 
-def _cells_meant(found: Skeleton, names: Names) -> CellMap:
-    """The skeleton's cells or its face cells, whichever more of the names are of."""
-    given = set(names.cells.values())
-    maps = [cell_map(found, by_face) for by_face in (False, True)]
-    return max(maps, key=lambda cells: len(given & {cell.name for cell in cells.cells}))
-
-
 def _regions(tags: Ints, names: Names, geometry: Geometry) -> Ints:
     """The region (m,) that each tetrahedron is tagged with, -1 for none."""
     number = {region.name: k for k, region in enumerate(geometry.regions)}
     table = dict(names.regions)
     table |= {tag: number.get(name.split("/")[0], -1) for tag, name in names.cells.items()}
-    found, which = np.unique(tags, return_inverse=True)
-    return np.array([table.get(int(tag), -1) for tag in found])[which.reshape(-1)]
+    return _looked_up(table, tags)
+
+
+def _bare_interfaces(mesh: ReadMesh, names: Names, geometry: Geometry) -> Iterator[str]:
+    """Faces between tetrahedra of two regions that no triangle tags."""
+    faces = faces_of(mesh.tets)
+    keys = row_keys(np.concatenate([faces, mesh.triangles[:, :3]]))
+    own, tagged = keys[: len(faces)], keys[len(faces) :]
+    region = np.repeat(_regions(mesh.tet_tags, names, geometry), 4)
+    order = np.argsort(own, kind="stable")
+    same = own[order[1:]] == own[order[:-1]]
+    split = same & (region[order[1:]] != region[order[:-1]])
+    rows = order[1:][split]
+    bare = rows[~np.isin(own[rows], tagged)]
+    places = mesh.points[faces].mean(axis=1)
+    yield from counted(bare, places, "faces between regions without a physical group")
 
 
 def _volumes(
@@ -180,46 +186,37 @@ def _reaching(
     mesh: ReadMesh,
     names: Names,
     geometry: Geometry,
-    found: Skeleton | None,
-    cells: CellMap | None,
+    cells: KnownCells | None,
     epsilon: float,
 ) -> Iterator[str]:
-    """Tetrahedra with a node more than `REACH` epsilons inside a cell that is not theirs."""
+    """Tetrahedra with a node or their middle deeper than `REACH` epsilons in a foreign cell."""
+    middles = mesh.points[mesh.tets[:, :4]].mean(axis=1)
+    points = np.concatenate([mesh.points, middles])
+    asked = np.column_stack([mesh.tets, len(mesh.points) + np.arange(len(mesh.tets))])
     own_region = _regions(mesh.tet_tags, names, geometry)
-    nearest = geometry.index.nearest(mesh.points)
+    nearest = geometry.index.nearest(points)
     limit = REACH * epsilon * np.array([region.diagonal for region in geometry.regions])
-    at = nearest.region[mesh.tets]
+    at = nearest.region[asked]
     wrong = (at != own_region[:, None]) & (own_region[:, None] >= 0)
-    deep = wrong & (nearest.distance[mesh.tets] > limit[own_region][:, None])
+    deep = wrong & (nearest.distance[asked] > limit[own_region][:, None])
     yield from _told(mesh, np.flatnonzero(deep.any(axis=1)), "region")
-    if found is None or cells is None:
+    if cells is None:
         return
-    number = {cell.name: k for k, cell in enumerate(cells.cells)}
-    table = {tag: number.get(name, -1) for tag, name in names.cells.items()}
-    tags, which = np.unique(mesh.tet_tags, return_inverse=True)
-    own = np.array([table.get(int(tag), -1) for tag in tags])[which.reshape(-1)]
+    number = {name: k for k, name in enumerate(cells.names)}
+    own = _looked_up({t: number.get(name, -1) for t, name in names.cells.items()}, mesh.tet_tags)
     cell = np.where(nearest.region < 0, -1, cells.of_site[nearest.site])
-    wrong = (cell[mesh.tets] != own[:, None]) & (at == own_region[:, None]) & (own[:, None] >= 0)
-    nodes = np.unique(mesh.tets[wrong])
-    depth = np.zeros(len(mesh.points))
-    depth[nodes] = _depth(found, cells, mesh.points[nodes], nearest.region[nodes])
-    deep = wrong & (depth[mesh.tets] > limit[own_region][:, None])
+    wrong = (cell[asked] != own[:, None]) & (at == own_region[:, None]) & (own[:, None] >= 0)
+    which = np.unique(asked[wrong])
+    depth = np.zeros(len(points))
+    depth[which] = cells.depth(points[which], nearest.region[which])
+    deep = wrong & (depth[asked] > limit[own_region][:, None])
     yield from _told(mesh, np.flatnonzero(deep.any(axis=1)), "cell")
 
 
-def _depth(found: Skeleton, cells: CellMap, points: Array, regions: Ints) -> Array:
-    """Distance (n,) of points to what parts the cells of their region."""
-    mesh = found.complex
-    result = np.zeros(len(points))
-    for number, region in enumerate(found.regions):
-        rows = np.flatnonzero(regions == number)
-        own = [cell for cell, r in zip(cells.cells, cells.region, strict=True) if r == number]
-        outer = {patch for sides in region.face_sides for patch, _ in sides}
-        patches = sorted({patch for cell in own for patch, _ in cell.sides} - outer)
-        corners = [mesh.points[mesh.patches[patch].triangles] for patch in patches]
-        tree = triangle_tree(np.concatenate([np.empty((0, 3, 3)), *corners]))
-        result[rows] = triangle_distance(tree, points[rows])
-    return result
+def _looked_up(table: Mapping[int, int], tags: Ints) -> Ints:
+    """The entry (m,) of each tag, -1 for none."""
+    found, which = np.unique(tags, return_inverse=True)
+    return np.array([table.get(int(tag), -1) for tag in found])[which.reshape(-1)]
 
 
 def _told(mesh: ReadMesh, rows: Ints, what: str) -> Iterator[str]:

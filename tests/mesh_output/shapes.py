@@ -99,3 +99,56 @@ def _tagged(points: Array, tets: Ints) -> tuple[Ints, Ints]:
     tag[~outer & (x == 1).all(axis=1)] = 5
     tag[~outer & (y == 0.5).all(axis=1) & (x < 1.01).all(axis=1)] = 9
     return faces[first][tag > 0], tag[tag > 0]
+
+
+def cube() -> TetMesh:
+    """The exact mesh of a unit cube with its skeleton: a pyramid of two tetrahedra on each face."""
+    sides = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    points = np.concatenate([corners, [[0.5, 0.5, 0.5]]])
+    tets, tags, outer = [], [], []
+    for axis in range(3):
+        for end in (0, 1):
+            ring = [k for k in range(8) if corners[k, axis] == end]
+            first, *_, last = ring
+            for other in ring[1:3]:
+                tets.append([first, last, other, 8])
+                tags.append(2 * axis + end + 1)
+                outer.append([first, last, other])
+    filled = _positive(points, np.array(tets, dtype=np.int64))
+    faces = faces_of(filled)
+    owner = np.repeat(np.array(tags), 4)
+    keys = row_keys(faces)
+    _, first_row, count = np.unique(keys, return_index=True, return_counts=True)
+    triangles, triangle_tags = [], []
+    pairs: dict[tuple[int, int], int] = {}
+    for row, number in zip(first_row, count, strict=True):
+        around = sorted(set(owner[keys == keys[row]].tolist()))
+        if number == 1:
+            triangles.append(faces[row])
+            triangle_tags.append(around[0])
+        elif len(around) == 2:
+            triangles.append(faces[row])
+            triangle_tags.append(pairs.setdefault((around[0], around[1]), 7 + len(pairs)))
+    names = [f"cube.{side}" for side in sides]
+    groups = [
+        Group(GroupKind.CELL, k + 1, f"cube/{name}", ("cube",), (name,), 1 / 6)
+        for k, name in enumerate(names)
+    ]
+    groups += [
+        Group(GroupKind.FACE, k + 1, f"cube/{name}", ("cube",)) for k, name in enumerate(names)
+    ]
+    groups += [
+        Group(GroupKind.SHEET, tag, f"cube/{names[a - 1]}|{names[b - 1]}", ("cube",))
+        for (a, b), tag in pairs.items()
+    ]
+    return TetMesh(
+        "cube",
+        points,
+        filled,
+        np.array(tags),
+        np.array(triangles),
+        np.array(triangle_tags),
+        tuple(groups),
+        np.array([], dtype=np.int64),
+    )
