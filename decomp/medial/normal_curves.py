@@ -22,8 +22,6 @@ from decomp.medial.incidence import ANGLE, Incidence, angle_between
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
-ON = 1e-6
-"""Points nearer to a normal than this part of the size count as on it, however many pass them."""
 REACH = 0.05
 """The longest step along an edge, as a part of it."""
 APPROACHES = 30
@@ -102,8 +100,9 @@ class EdgeNormals(NormalCurve):
         return np.asarray(t)
 
     def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
-        s = self._nearest_rulings(points, near)
-        feet, ways = self.feet(s), self.directions(s)
+        s = self._approach(points, near)
+        feet = self.feet(s)
+        ways = self.incidence.inward(self.face, feet)
 
         def change(height: Array) -> Array:
             tangent, turn = self._turn(s, feet)
@@ -114,24 +113,8 @@ class EdgeNormals(NormalCurve):
 
         return feet, ways, change
 
-    def _nearest_rulings(self, points: Array, near: Array) -> Array:
-        """Parameters (k,) of the normals that pass closest to points.
-
-        Each point starts from its foot on the face's carrier and, where that does not lead onto a
-        normal, from a known parameter.
-        """
-        boundary = self.incidence.boundary
-        beside = boundary.carriers[boundary.faces[self.face].carrier].foot(points)
-        s, off = self._approach(points, self.parameter(beside))
-        rows = np.flatnonzero(off > ON * boundary.diagonal)
-        if len(rows):
-            others, gap = self._approach(points[rows], near[rows])
-            better = gap < off[rows]
-            s[rows[better]] = others[better]
-        return s
-
-    def _approach(self, points: Array, start: Array) -> tuple[Array, Array]:
-        """Parameters (k,) of normals closer to points (k, 3), and how far (k,) these pass.
+    def _approach(self, points: Array, start: Array) -> Array:
+        """Parameters (k,) of the normals closest to points (k, 3), from others close by.
 
         Gauss and Newton's method; steps that lead farther away are halved twice.
         """
@@ -159,7 +142,7 @@ class EdgeNormals(NormalCurve):
             height[kept], gap[kept] = up[closer], norm(off[closer])
             reach[rows[~closer]] = np.abs(tried - s[rows])[~closer] / 4
             rows = rows[(moved > least) & (~closer | (gain > 0.01 * least))]
-        return s, gap
+        return s
 
     def _bounded(self, s: Array) -> Array:
         """Parameters within the edge, unless it is closed."""
@@ -167,7 +150,8 @@ class EdgeNormals(NormalCurve):
 
     def _off(self, points: Array, s: Array) -> tuple[Array, Array, Array]:
         """What leads (k, 3) from normals to points across, their feet, the height (k,) there."""
-        feet, ways = self.feet(s), self.directions(s)
+        feet = self.feet(s)
+        ways = self.incidence.inward(self.face, feet)
         height = dot(points - feet, ways)
         return points - feet - height[:, None] * ways, feet, height
 
