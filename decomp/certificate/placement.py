@@ -16,7 +16,7 @@ from decomp.medial.result import Reflexive, Sheet
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.fields import site_fields
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Ints, cross, dot, nearest_rows, norm
+from decomp.vectors import Array, Ints, cross, dot, norm
 
 BLOCK = 1 << 12
 SEARCH, HALVINGS = 513, 40
@@ -90,7 +90,8 @@ def _sheet_error(evidence: Evidence, sheet: Sheet, vertices: Ints) -> Array:
         # where the two feet merge, on the sheet's rim, Newton's method for a foot creeps
         edge = evidence.boundary.edges[evidence.sites[sheet.sites[0]].index]
         rough = np.flatnonzero(np.maximum(first, second) > evidence.radius[vertices] + CREPT)
-        nearest = _nearest_of_edge(edge, points[rough])
+        sides = np.zeros((len(rough), 3))
+        nearest = norm(_nearest_of_edge(edge, points[rough], sides) - points[rough])
         first[rough], second[rough] = (
             np.where(np.abs(each[rough] - nearest) <= MERGED, nearest, each[rough])
             for each in (first, second)
@@ -104,7 +105,7 @@ def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards:
 
     A sheet's tangent plane is the mid-plane of the feet of its point, so one is the mirror image of
     the other, and the nearest-site query gives one. At a seam it may give a foot on a third site:
-    there the edge's nearest sample is taken.
+    there the edge's nearest point on the side is taken.
     """
     site = evidence.sites[number]
     if site.kind is not SiteKind.EDGE:
@@ -113,19 +114,23 @@ def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards:
     across = np.asarray(dot(found.foot - points, towards))[:, None]
     feet = np.where(across > 0, found.foot, found.foot - 2 * across * towards)
     others = np.flatnonzero(~np.isin(found.site, sheet.sites))
-    samples = evidence.boundary.edges[site.index].samples
-    feet[others] = _nearest_samples(samples, points[others], towards[others])
+    edge = evidence.boundary.edges[site.index]
+    feet[others] = _nearest_of_edge(edge, points[others], towards[others])
     return feet
 
 
-def _nearest_of_edge(edge: Edge, points: Array) -> Array:
-    """Least distance (k,) from points to an edge: bisection around its nearest sample."""
+def _nearest_of_edge(edge: Edge, points: Array, towards: Array) -> Array:
+    """The nearest point of an edge to each of points (k, 3) that lies to its side `towards`.
+
+    Where none does, or `towards` is zero, the nearest of all; by thirds around a sample.
+    """
     if not len(points):
-        return np.empty(0)
+        return np.empty((0, 3))
     s = np.linspace(edge.start, edge.end, SEARCH)
-    samples = edge.curve.point(edge.curve.wrapped(s))
-    middle = s[nearest_rows(samples, points)]
+    middle = s[_nearest_samples(edge.curve.point(edge.curve.wrapped(s)), points, towards)]
     low, high = middle - (s[1] - s[0]), middle + (s[1] - s[0])
+    if not edge.closed:
+        low, high = np.maximum(low, edge.start), np.minimum(high, edge.end)
 
     def distance(t: Array) -> Array:
         return norm(edge.curve.point(edge.curve.wrapped(t)) - points)
@@ -134,19 +139,18 @@ def _nearest_of_edge(edge: Edge, points: Array) -> Array:
         third = (high - low) / 3
         left = distance(low + third) <= distance(high - third)
         low, high = np.where(left, low, low + third), np.where(left, high - third, high)
-    return distance((low + high) / 2)
+    return edge.curve.point(edge.curve.wrapped((low + high) / 2))
 
 
-def _nearest_samples(samples: Array, points: Array, towards: Array) -> Array:
-    """The nearest of some samples (s, 3) to each point that lies to its side `towards`."""
-    result = np.empty(points.shape)
+def _nearest_samples(samples: Array, points: Array, towards: Array) -> Ints:
+    """Which of samples (s, 3) is nearest to each point among those on its side `towards`."""
+    result = np.empty(len(points), dtype=np.int64)
     for start in range(0, len(points), BLOCK):
         block = slice(start, start + BLOCK)
         away = samples[None] - points[block, None]
         behind = np.asarray(dot(away, towards[block, None]) < 0)
         behind &= ~behind.all(axis=1, keepdims=True)
-        nearest = np.argmin(np.where(behind, np.inf, dot(away, away)), axis=1)
-        result[block] = samples[nearest]
+        result[block] = np.argmin(np.where(behind, np.inf, dot(away, away)), axis=1)
     return result
 
 

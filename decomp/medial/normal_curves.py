@@ -20,13 +20,10 @@ from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.incidence import ANGLE, Incidence, angle_between
 from decomp.tolerance import TOLERANCE
-from decomp.tracing.fields import edge_foot
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
-ON = 1e-6
-"""Points nearer to a normal than this part of the size count as on it, however many pass them."""
 REACH = 0.05
-"""The longest step along an edge, as a part of the size."""
+"""The longest step along an edge, as a part of it."""
 APPROACHES = 30
 """Steps of the search for the nearest normal."""
 FLAT = 1e-9
@@ -62,7 +59,7 @@ class NormalCurve(ABC):
 
         Args:
             points: (k, 3).
-            near: feet (k, 3) close to theirs.
+            near: parameters (k,) close to theirs, for points close to many normals.
 
         Returns:
             feet and directions (k, 3), and a function that tells in which direction (k, 3) points
@@ -103,103 +100,69 @@ class EdgeNormals(NormalCurve):
         return np.asarray(t)
 
     def rulings(self, points: Array, near: Array) -> tuple[Array, Array, Callable[[Array], Array]]:
-        feet = self._nearest_rulings(points, near)
-        turn = self._turn(feet)
+        s = self._approach(points, near)
+        feet = self.feet(s)
+        ways = self.incidence.inward(self.face, feet)
 
         def change(height: Array) -> Array:
-            along = self._movement(feet, turn, height)
-            flat = norm(along) <= FLAT
-            along[flat] = turn[1][flat]
+            tangent, turn = self._turn(s, feet)
+            along = _across(tangent + height[:, None] * turn, ways)
+            flat = norm(along) <= FLAT * norm(tangent)
+            along[flat] = turn[flat]
             return along
 
-        return feet, self.incidence.inward(self.face, feet), change
+        return feet, ways, change
 
-    def _nearest_rulings(self, points: Array, near: Array) -> Array:
-        """Feet (k, 3) of the normals that pass closest to points, by Gauss and Newton.
+    def _approach(self, points: Array, start: Array) -> Array:
+        """Parameters (k,) of the normals closest to points (k, 3), from others close by.
 
-        Each point starts from its carrier's foot and, where that does not lead onto a normal, from
-        a known foot.
+        Gauss and Newton's method; steps that lead farther away are halved twice.
         """
-        boundary = self.incidence.boundary
-        carrier = boundary.carriers[boundary.faces[self.face].carrier]
-        beside = carrier.foot(points)
-        feet = edge_foot(boundary, self.edge, beside, beside)
-        feet, off = self._approach(points, feet)
-        rows = np.flatnonzero(off > ON * boundary.diagonal)
-        if len(rows):
-            others, gap = self._approach(points[rows], near[rows])
-            better = gap < off[rows]
-            feet[rows[better]] = others[better]
-        return feet
-
-    def _approach(self, points: Array, feet: Array) -> tuple[Array, Array]:
-        """Feet of normals closer to points (k, 3), and how far (k,) these pass."""
-        size = self.incidence.boundary.diagonal
-        feet = np.array(feet)
-        off, height = self._off(points, feet)
-        gap = norm(off)
-        rows = np.flatnonzero(gap > TOLERANCE * size)
-        reach = np.full(len(points), REACH * size)
+        least = TOLERANCE * self.incidence.boundary.diagonal
+        s = self._bounded(start)
+        away, feet, height = self._off(points, s)
+        gap = norm(away)
+        rows = np.flatnonzero(gap > least)
+        reach = np.full(len(points), REACH * (self.end - self.start))
         for _ in range(APPROACHES):
             if not len(rows):
                 break
-            turn = self._turn(feet[rows])
-            along = self._movement(feet[rows], turn, height[rows])
-            square = dot(along, along)
-            step = dot(off[rows], along) / np.maximum(square, FLAT**2)
-            limited = np.clip(step, -reach[rows], reach[rows])
-            ahead = feet[rows] + limited[:, None] * turn[0]
-            tried = edge_foot(self.incidence.boundary, self.edge, ahead, ahead)
-            away, up = self._off(points[rows], tried)
-            closer = norm(away) < gap[rows]
+            tangent, turn = self._turn(s[rows], feet[rows])
+            ways = self.incidence.inward(self.face, feet[rows])
+            along = _across(tangent + height[rows, None] * turn, ways)
+            flat = FLAT * norm(tangent)
+            step = dot(away[rows], along) / np.maximum(dot(along, along), flat**2)
+            tried = self._bounded(s[rows] + np.clip(step, -reach[rows], reach[rows]))
+            moved = np.abs(tried - s[rows]) * norm(tangent)
+            off, at, up = self._off(points[rows], tried)
+            gain = gap[rows] - norm(off)
+            closer = gain > 0
             kept = rows[closer]
-            gain = gap[kept] - norm(away)[closer]
-            feet[kept], off[kept], height[kept] = tried[closer], away[closer], up[closer]
-            gap[kept] = norm(off[kept])
-            reach[rows[~closer]] = np.abs(limited[~closer]) / 4
-            going = reach[rows] > TOLERANCE * size
-            going[closer] &= gain > TOLERANCE * size
-            rows = rows[going]
-        return feet, gap
+            s[kept], away[kept], feet[kept] = tried[closer], off[closer], at[closer]
+            height[kept], gap[kept] = up[closer], norm(off[closer])
+            reach[rows[~closer]] = np.abs(tried - s[rows])[~closer] / 4
+            rows = rows[(moved > least) & (~closer | (gain > 0.01 * least))]
+        return s
 
-    def _off(self, points: Array, feet: Array) -> tuple[Array, Array]:
-        """What leads (k, 3) from the normals at feet to points across, and the height (k,)."""
+    def _bounded(self, s: Array) -> Array:
+        """Parameters within the edge, unless it is closed."""
+        return np.array(s) if self.closed else np.clip(s, self.start, self.end)
+
+    def _off(self, points: Array, s: Array) -> tuple[Array, Array, Array]:
+        """What leads (k, 3) from normals to points across, their feet, the height (k,) there."""
+        feet = self.feet(s)
         ways = self.incidence.inward(self.face, feet)
         height = dot(points - feet, ways)
-        return points - feet - height[:, None] * ways, height
+        return points - feet - height[:, None] * ways, feet, height
 
-    def _turn(self, feet: Array) -> tuple[Array, Array]:
-        """Unit tangents (k, 3) of the edge, and how the normals change along it, by length."""
-        boundary = self.incidence.boundary
-        if isinstance(self.edge.curve, Line):
-            tangent = np.broadcast_to(self.edge.curve.direction, feet.shape)
-        elif isinstance(self.edge.curve, Circle):
-            axis = cross(self.edge.curve.x, self.edge.curve.y)
-            tangent = cross(axis, feet - self.edge.curve.centre) / self.edge.curve.radius
-        else:
-            a, b = (boundary.carriers[k].normal(feet) for k in self.edge.carriers)
-            tangent = cross(a, b)
-            tangent = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
-            # in the sense of the parameter
-            sense = dot(tangent, self._tangents(feet))
-            tangent = np.where(sense[:, None] < 0, -tangent, tangent)
-        h = 1e-6 * boundary.diagonal
-        ahead = self.incidence.inward(self.face, feet + h * tangent)
-        behind = self.incidence.inward(self.face, feet - h * tangent)
-        return tangent, (ahead - behind) / (2 * h)
-
-    def _movement(self, feet: Array, turn: tuple[Array, Array], height: Array) -> Array:
-        """How points (k, 3) at heights (k,) above feet move along the edge, across the normals."""
-        tangent, change = turn
-        ways = self.incidence.inward(self.face, feet)
-        along = tangent + height[:, None] * change
-        return np.asarray(along - dot(along, ways)[:, None] * ways)
-
-    def _tangents(self, feet: Array) -> Array:
-        """Directions of the chords of known samples beside feet (k, 3)."""
-        samples, _ = self._samples
-        rows = np.minimum(nearest_rows(samples, feet), len(samples) - 2)
-        return np.asarray(samples[rows + 1] - samples[rows])
+    def _turn(self, s: Array, feet: Array) -> tuple[Array, Array]:
+        """How feet and directions (k, 3) change with the parameter."""
+        tangent = self.edge.curve.derivative(s)
+        h = 1e-6 * self.incidence.boundary.diagonal
+        unit = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
+        ahead = self.incidence.inward(self.face, feet + h * unit)
+        behind = self.incidence.inward(self.face, feet - h * unit)
+        return tangent, (ahead - behind) * (norm(tangent) / (2 * h))[:, None]
 
     def _nearest(self, points: Array) -> Array:
         """Parameters of the samples of the edge that are nearest to points."""
@@ -228,6 +191,11 @@ class EdgeNormals(NormalCurve):
             if not len(rows):
                 break
         return t
+
+
+def _across(vectors: Array, ways: Array) -> Array:
+    """The part of vectors (k, 3) across unit directions."""
+    return np.asarray(vectors - dot(vectors, ways)[:, None] * ways)
 
 
 @dataclass(frozen=True, eq=False)

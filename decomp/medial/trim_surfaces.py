@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.medial.normal_curves import NormalCurve
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-RUNGS = (0.0, 0.3, 0.6, 0.9)
+RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98)
 """Parts of the normals' lengths at which points are known."""
 
 
@@ -42,7 +42,7 @@ class RuledSurface:
         up = np.concatenate([rung * self.height for rung in RUNGS])
         feet = self.curve.feet(s)
         points = feet + up[:, None] * self.curve.directions(s)
-        object.__setattr__(self, "_known", (cKDTree(points), feet))
+        object.__setattr__(self, "_known", (cKDTree(points), s))
 
     def place(self, points: Array) -> Array:
         """Points (k, 3) moved to the normal through their foot."""
@@ -58,8 +58,8 @@ class RuledSurface:
         return np.asarray(across / np.where(length > 0, length, 1.0)[:, None])
 
     def _near(self, points: Array) -> Array:
-        tree, feet = self._known
-        return np.asarray(feet[tree.query(points)[1]])
+        tree, s = self._known
+        return np.asarray(s[tree.query(points)[1]])
 
 
 def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:

@@ -48,8 +48,6 @@ LONG = {
 UNFINISHED = {
     "netgen/period.geo": "curves cross in a footprint",
     "netgen/twocyl.geo": "an edge's sheet with itself that has no plane of symmetry",
-    "equal tee": "two cylinders of one radius",
-    "unequal tee": "trim surface of the edge with itself",
 }
 """Models whose skeleton cannot be computed yet, and why."""
 

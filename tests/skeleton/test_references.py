@@ -325,7 +325,6 @@ def test_cross_drilled_block(name: str, counts: tuple[int, int, int], cells: int
     assert block.kinds() == {("face", "face"): 28}
 
 
-@unfinished("unequal tee")
 def test_unequal_tee() -> None:
     """The edge between the run and its thinner branch has a sheet with itself: the plane y = 0."""
     tee = region_of("unequal tee")
@@ -334,10 +333,12 @@ def test_unequal_tee() -> None:
     assert tee.on_sheets(edge, edge)[:, 1] == pytest.approx(0, abs=1e-12)
 
 
-@unfinished("equal tee")
 def test_equal_tee() -> None:
+    """Both edges have a sheet with themselves: triangles between the two axes and their rims."""
     tee = region_of("equal tee")
-    assert len(tee.parts.cells) >= 4
+    edge = "branch.side|run.side"
+    assert sorted(sheet.area for sheet in tee.sheets(edge, edge)) == pytest.approx([0.5, 0.5])
+    assert tee.on_sheets(edge, edge)[:, 1] == pytest.approx(0, abs=1e-12)
     assert sum(tee.volumes().values()) == pytest.approx(8 * pi - 8 / 3, rel=1e-3)
 
 
