@@ -14,6 +14,7 @@ from typing import Literal
 
 import numpy as np
 
+from decomp.complex.refine_elements import Elements
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
@@ -23,8 +24,10 @@ from decomp.tetra.classify import classified, region_of
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
+from decomp.tetra.project import Projector
 from decomp.tetra.surface import SurfaceMaker
 from decomp.tetra.tagging import Tagger
+from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
 Progress = Callable[[str, float], None]
@@ -80,7 +83,13 @@ def mesh(
     label, faces = classified(geometry, known, raw.points, raw.tets, epsilon)
     tagged = Tagger(geometry, made, known, plan, epsilon).tagged(raw.points, label, faces)
     groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
+    tell("projecting", 0.85)
+    elements = Elements(plan.complex)
+    targets = Finder(geometry, made, known, plan, elements, epsilon).targets(raw.points, tagged)
     inside = label >= 0
+    moved = Projector(
+        raw.points, raw.tets[inside], targets, elements, plan.complex.points
+    ).projected()
     if volumes == "cells":
         solid, tet_tags = cell_groups(geometry, known), label[inside] + 1
     else:
@@ -89,13 +98,13 @@ def mesh(
     used = np.unique(tets)
     return TetMesh(
         geometry.model.name,
-        raw.points[used],
+        moved.points[used],
         np.searchsorted(used, tets),
         tet_tags,
         np.searchsorted(used, triangles),
         tags[tags > 0],
         (*solid, *groups),
-        np.empty(0, dtype=np.int64),
+        np.searchsorted(used, moved.left),
     )
 
 

@@ -1,0 +1,243 @@
+"""Which exact surface, curve or point each node of a mesh belongs to.
+
+A node knows the patches of the triangles around it: one patch means a surface, several the line
+along which they meet, or the corner where their lines do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.complex.refine_elements import Elements
+from decomp.errors import GeometryError
+from decomp.geometry import Geometry
+from decomp.tetra.cells import CellMap, locate
+from decomp.tetra.layout import Layout
+from decomp.tetra.surface import MeshSurface
+from decomp.tetra.tagging import Tagged
+from decomp.vectors import Array, Bools, Ints, cross, norm
+
+ASIDE = 0.5
+"""A sheet's two sides are asked so many epsilons off it."""
+NEAR_CORNER = 6.0
+"""A corner takes nodes within so many epsilons."""
+SURFACE, LINE, CORNER = 2, 1, 0
+
+
+@dataclass(frozen=True, eq=False)
+class Targets:
+    """Where nodes belong.
+
+    Args:
+        nodes: (k,) ascending.
+        dimension: (k,) SURFACE, LINE or CORNER.
+        element: (k,) the number of the surface or curve in `Elements`, the point of the complex
+            for a corner.
+        surface: (k,) the number of one of its surfaces, for nodes that cannot be moved further.
+        complete: (k,) whether that is on all patches around the node.
+    """
+
+    nodes: Ints
+    dimension: Ints
+    element: Ints
+    surface: Ints
+    complete: Bools
+
+
+class Finder:
+    """Finds the targets of nodes.
+
+    Args:
+        geometry, surface, cells, plan: of the model.
+        elements: of the plan's complex.
+        epsilon: how far nodes are off at first.
+    """
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        surface: MeshSurface,
+        cells: CellMap,
+        plan: Layout,
+        elements: Elements,
+        epsilon: float,
+    ) -> None:
+        self._geometry, self._surface, self._cells = geometry, surface, cells
+        self._plan, self._elements, self._epsilon = plan, elements, epsilon
+        self._group: dict[int, tuple[int, ...]] = {
+            patch: own for own in plan.between.values() for patch in own
+        }
+        self._lines: dict[tuple[int, ...], list[int]] = {}
+        for number, around in enumerate(plan.around_line):
+            if len(around) > 1:
+                self._lines.setdefault(around, []).append(number)
+
+    def targets(self, points: Array, tagged: Tagged) -> Targets:
+        """The targets of all nodes of tagged triangles."""
+        pairs = np.unique(
+            np.stack([tagged.triangles.reshape(-1), np.repeat(tagged.patches, 3)], axis=1), axis=0
+        )
+        nodes, first = np.unique(pairs[:, 0], return_index=True)
+        sets = [tuple(own.tolist()) for own in np.split(pairs[:, 1], first[1:])]
+        by_set: dict[tuple[int, ...], list[int]] = {}
+        for row, own in enumerate(sets):
+            by_set.setdefault(own, []).append(row)
+        found = Targets(
+            nodes,
+            np.full(len(nodes), SURFACE),
+            np.zeros(len(nodes), dtype=np.int64),
+            np.zeros(len(nodes), dtype=np.int64),
+            np.ones(len(nodes), dtype=np.bool_),
+        )
+        ambiguous: list[int] = []
+        for own, listed in by_set.items():
+            rows = np.array(listed, dtype=np.int64)
+            found.surface[rows] = self._elements.of_patch[own[0]]
+            alike = self._group.get(own[0], ())
+            if len(alike) > 1 and set(own) <= set(alike):
+                ambiguous += listed
+            elif len(own) == 1:
+                found.element[rows] = self._elements.of_patch[own[0]]
+            else:
+                self._meet(points[nodes[rows]], own, rows, found)
+        self._on_one_sheet(points, tagged, np.array(sorted(ambiguous), dtype=np.int64), found)
+        return found
+
+    def _meet(self, places: Array, own: tuple[int, ...], rows: Ints, found: Targets) -> None:
+        """Nodes at which several patches meet: on a line or at a corner."""
+        lines = self._lines.get(own, [])
+        if not lines:
+            near = self._near_corner(places, own)
+            found.dimension[rows[near >= 0]] = CORNER
+            found.element[rows[near >= 0]] = self._plan.corners[near[near >= 0]]
+            rows, places = rows[near < 0], places[near < 0]
+            if not len(rows):
+                return
+            lines = self._lines_like(own)
+        if lines:
+            found.dimension[rows] = LINE
+            found.element[rows] = self._elements.of_line[self._nearest_line(places, lines)]
+        else:
+            found.element[rows] = found.surface[rows]
+            found.complete[rows] = False
+
+    def _near_corner(self, places: Array, own: tuple[int, ...]) -> Ints:
+        """The corner (k,) at each place where most of some patches meet, -1 for none."""
+        wanted = set(own)
+        rows = np.array(
+            [
+                k
+                for k, around in enumerate(self._plan.around_corner)
+                if len(wanted & set(around)) >= min(3, len(wanted))
+            ],
+            dtype=np.int64,
+        )
+        if not len(rows):
+            return np.full(len(places), -1, dtype=np.int64)
+        at = self._plan.complex.points[self._plan.corners[rows]]
+        gap, which = cKDTree(at).query(places)
+        near = gap < NEAR_CORNER * self._epsilon
+        return np.asarray(np.where(near, rows[which], -1), dtype=np.int64)
+
+    def _lines_like(self, own: tuple[int, ...]) -> list[int]:
+        """Lines along which some of the patches meet, else lines where more than they do."""
+        wanted = set(own)
+        within = [k for around, ks in self._lines.items() if set(around) <= wanted for k in ks]
+        if within:
+            most = max(len(self._plan.around_line[k]) for k in within)
+            return [k for k in within if len(self._plan.around_line[k]) == most]
+        return [k for around, ks in self._lines.items() if wanted <= set(around) for k in ks]
+
+    def _nearest_line(self, places: Array, lines: Sequence[int]) -> Ints:
+        if len(lines) == 1:
+            return np.full(len(places), lines[0], dtype=np.int64)
+        mesh = self._plan.complex
+        gaps = np.stack(
+            [polyline_distance(mesh.points[mesh.lines[k].vertices], places) for k in lines]
+        )
+        return np.array(lines, dtype=np.int64)[np.argmin(gaps, axis=0)]
+
+    def _on_one_sheet(self, points: Array, tagged: Tagged, rows: Ints, found: Targets) -> None:
+        """Nodes between two cells that several sheets part, one going on as the next.
+
+        The sites on both sides tell which of them a node is on.
+        """
+        if not len(rows):
+            return
+        nodes = found.nodes[rows]
+        normal = np.zeros_like(points)
+        a, b, c = np.moveaxis(points[tagged.triangles], 1, 0)
+        np.add.at(normal, tagged.triangles, cross(b - a, c - a)[:, None])
+        way = normal[nodes] / np.maximum(norm(normal[nodes]), 1e-300)[:, None]
+        way *= ASIDE * self._epsilon
+        sites = locate(
+            self._geometry, self._cells, np.concatenate([points[nodes] - way, points[nodes] + way])
+        ).site.reshape(2, -1)
+        patch_of: dict[tuple[int, int], list[int]] = {}
+        for region in self._surface.regions:
+            for patch, (one, two) in region.sheets.items():
+                patch_of.setdefault((min(one, two), max(one, two)), []).append(patch)
+        nearest = dict(
+            zip(tagged.triangles.reshape(-1).tolist(), np.repeat(tagged.patches, 3), strict=True)
+        )
+        for row, node, low, high in zip(
+            rows, nodes, sites.min(axis=0), sites.max(axis=0), strict=True
+        ):
+            given = int(nearest[int(node)])
+            like = [k for k in patch_of.get((low, high), ()) if k in self._group[given]]
+            patch = given if given in like or not like else like[0]
+            found.element[row] = found.surface[row] = self._elements.of_patch[patch]
+
+
+def polyline_distance(line: Array, places: Array) -> Array:
+    """Distances (k,) of places (k, 3) from a polyline (n, 3)."""
+    start, way = line[:-1], np.diff(line, axis=0)
+    length = np.maximum((way**2).sum(axis=1), 1e-300)
+    least = np.full(len(places), np.inf)
+    for a, w, square in zip(start, way, length, strict=True):
+        t = np.clip((places - a) @ w / square, 0, 1)
+        least = np.minimum(least, norm(places - a - t[:, None] * w))
+    return least
+
+
+def placed(
+    elements: Elements, mesh_points: Array, dimension: Ints, element: Ints, points: Array
+) -> tuple[Array, Bools]:
+    """Move points (k, 3) onto what they belong to.
+
+    Args:
+        elements: of the complex.
+        mesh_points: the complex's points.
+        dimension, element: (k,) as in `Targets`.
+        points: close to it.
+
+    Returns:
+        the places (k, 3), and whether each was found (k,).
+    """
+    result = np.array(points)
+    good = np.ones(len(points), dtype=np.bool_)
+    corner = dimension == CORNER
+    result[corner] = mesh_points[element[corner]]
+    rows = np.flatnonzero(~corner)
+    _place(elements, element, points, rows, result, good)
+    return result, good
+
+
+def _place(
+    elements: Elements, element: Ints, points: Array, rows: Ints, result: Array, good: Bools
+) -> None:
+    """Place rows together; where that fails, halves of them, down to the ones that fail."""
+    if not len(rows):
+        return
+    try:
+        result[rows] = elements.place(element[rows], points[rows])
+    except GeometryError:
+        if len(rows) == 1:
+            good[rows] = False
+            return
+        _place(elements, element, points, rows[: len(rows) // 2], result, good)
+        _place(elements, element, points, rows[len(rows) // 2 :], result, good)
