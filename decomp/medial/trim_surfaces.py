@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.medial.normal_curves import NormalCurve
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98)
+RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995)
 """Parts of the normals' lengths at which points are known."""
 
 
