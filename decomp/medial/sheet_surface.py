@@ -141,7 +141,7 @@ class SheetSurface:
         lies on both sides of a seam at which an edge has two feet, a known point has only one.
         """
         if not self._curved:
-            return self.feet[np.zeros(len(points), dtype=np.int64)]
+            return np.asarray(self.feet[np.zeros(len(points), dtype=np.int64)])
         it = self.incidence
         feet = self.feet[self._tree.query(points)[1]]
         other = it.feet(self.sites, points)
@@ -151,7 +151,7 @@ class SheetSurface:
             gap = known.distance - norm(points - other[:, column])
             nearer = gap > CLEAR * it.boundary.diagonal
             feet[nearer, column] = other[nearer, column]
-        return feet
+        return np.asarray(feet)
 
     @cached_property
     def _curved(self) -> bool:
