@@ -26,7 +26,6 @@ import resource
 import subprocess
 import sys
 import time
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +54,8 @@ MODELS = {
     "manyholes": "netgen/manyholes.geo",
 }
 ROUTES = ("decomp", "facets", "Gmsh", "Netgen")
+CHORD = 0.5
+"""Chord error of decomp's complex and of the facets, in epsilons."""
 CLOSE = 0.1
 """Peers' numbers of tetrahedra are within so much of decomp's, or what five tries come to."""
 TRIES = 5
@@ -121,9 +122,7 @@ def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
     geometry = Geometry(source)
     exact = geometry.regions[0].volume
     names = {"names": float(len(made.groups)), "unprojected": float(len(made.unprojected))}
-    chord = signature(meshing.mesh).parameters["tolerance"].default * geometry.diagonal
     told = {
-        "chord": chord,
         "edge": asked[-1].edge_length,
         "epsilon": asked[-1].epsilon,
         "exact": exact,
@@ -140,7 +139,7 @@ def by_facets(name: str, given: dict[str, float]) -> dict[str, float]:
     node = solid_of(name)
     diagonal = float(np.linalg.norm(bounds[1] - bounds[0]))
     clock = Clock()
-    surface = Facets(bounds, given["chord"]).build(node).to_mesh64()
+    surface = Facets(bounds, CHORD * given["epsilon"]).build(node).to_mesh64()
     points, tets = pytetwild.tetrahedralize(
         np.array(surface.vert_properties[:, :3], dtype=np.float64),
         np.array(surface.tri_verts, dtype=np.int32),
