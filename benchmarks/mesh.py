@@ -22,9 +22,11 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -221,9 +223,16 @@ def child(route: str, name: str, given: dict[str, float], limit: float) -> dict[
     """What a process prints, or why it printed nothing."""
     command = [sys.executable, "-m", "benchmarks.mesh", "--child", route, name, json.dumps(given)]
     try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, timeout=limit, check=False, cwd=ROOT
-        )
+        with tempfile.TemporaryDirectory() as folder:  # pytetwild leaves files where it runs
+            done = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                timeout=limit,
+                check=False,
+                cwd=folder,
+                env={**os.environ, "PYTHONPATH": str(ROOT)},
+            )
     except subprocess.TimeoutExpired:
         return {"failure": f"over {limit:.0f} s"}
     lines = done.stdout.strip().splitlines()
