@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
+from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.certificate.certificate import VOLUME, Certified, certified, explained, shortcomings
 from decomp.certificate.evidence import Evidence
 from decomp.complex.boundary import BoundaryMesh, boundary_mesh
@@ -38,6 +38,7 @@ from decomp.medial.result import (
     Sheet,
     Skeleton,
     SkeletonLine,
+    TrimSurface,
 )
 from decomp.medial.sheets import CrossingError, MissingCurveError, SheetPart
 from decomp.medial.trim_maker import BoundaryVertices, owners

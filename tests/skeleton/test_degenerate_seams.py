@@ -10,6 +10,7 @@ import pytest
 
 import decomp
 from decomp import Cylinder
+from decomp.errors import GeometryError
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.graph import SeamGraph, missed_seams, seam_graph
 from decomp.tracing.seam_points import SeamPoints
@@ -142,5 +143,5 @@ def test_a_seam_that_is_left_out_is_missed() -> None:
 def test_a_seam_that_cannot_be_settled_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     """The closed seams of a washer are found from seeds alone: those must not go unnoticed."""
     monkeypatch.setattr(SeamPoints, "settled", lambda *_: None)
-    with pytest.raises(decomp.GeometryError, match="cannot be found exactly"):
+    with pytest.raises(GeometryError, match="cannot be found exactly"):
         graph_of(washer())
