@@ -37,6 +37,9 @@ from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
+CHORD = 0.75
+"""How far triangles may be off their surfaces, in parts of epsilon."""
+
 Progress = Callable[[str, float], None]
 
 
@@ -133,10 +136,10 @@ def mesh(
 def _surface(geometry: Geometry, maker: SurfaceMaker, by_face: bool) -> tuple[MeshSurface, float]:
     """The complex, and the epsilon that it is fine enough for."""
     epsilon = usual_epsilon(geometry)
-    made = maker.made(epsilon / 2, by_face)
+    made = maker.made(CHORD * epsilon, by_face)
     fitting = fitting_epsilon(geometry, made, epsilon)
     if fitting < 0.99 * epsilon:
-        made = maker.made(fitting / 2, by_face)
+        made = maker.made(CHORD * fitting, by_face)
     return made, fitting
 
 
