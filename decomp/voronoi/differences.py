@@ -15,10 +15,10 @@ from decomp.vectors import Array, norm
 from decomp.voronoi.exact import floats, inner, minus
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, height, linear, rational
-from decomp.voronoi.position import Axis
+from decomp.voronoi.position import Axis, aligned
 from decomp.voronoi.profile import CurveKind, ProfileCircle, voronoi_curve
 from decomp.voronoi.shape import Shape, shape
-from decomp.voronoi.sites import CylinderSite, PlaneSite, SphereSite, TorusSite
+from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite, TorusSite
 
 Found = tuple[Shape, Polynomial | None]
 
@@ -126,6 +126,27 @@ def parallel_tubes(
     kind = Kind.HYPERBOLIC_CYLINDER if curve.kind is CurveKind.HYPERBOLA else Kind.ELLIPTIC_CYLINDER
     found = shape(kind, centre, z, x, a=curve.a, b=curve.b)
     return found, Polynomial.of((u - v - k2) ** 2 - 4 * k2 * v, f.point)
+
+
+def tubes_for_cones(
+    f: ConeSite, g: ConeSite, e: int, angle: float
+) -> tuple[CylinderSite, CylinderSite] | None:
+    """Cylinders that have the same Voronoi surface as cones of equal angle and parallel axes.
+
+    With g's apex h above f's, rho_f - rho_g = -h tan (even) if both open upwards, rho_f + rho_g =
+    h tan (odd) if g opens downwards: the equations of cylinders with these differences of radii.
+    """
+    sense = aligned(f.axis, g.axis, angle)
+    if sense != e or abs(float(f.sine - g.sine)) > angle:
+        return None
+    k = -e * Axis(f.apex, f.axis).height(g.apex) * f.sine / f.cosine
+    zero = Fraction(0)
+    if e > 0:
+        one, two = max(k, zero), max(-k, zero)
+    else:
+        # without a common point the sum of two distances would have to be negative
+        one, two = max(k, zero), zero
+    return CylinderSite(f.apex, f.axis, one), CylinderSite(g.apex, f.axis, two)
 
 
 def _plane_of_axes(f: CylinderSite, g: CylinderSite, axis: Axis) -> Polynomial:

@@ -17,7 +17,7 @@ from decomp.vectors import Array
 from decomp.voronoi.exact import Vector, floats, inner, length, minus, moved
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, squared_distance_from_line
-from decomp.voronoi.position import Axis, aligned
+from decomp.voronoi.position import Axis
 from decomp.voronoi.shape import Shape, shape
 from decomp.voronoi.sites import (
     CarrierSite,
@@ -46,9 +46,7 @@ class FocalForm:
         return Polynomial.of(raw, self.axis.point)
 
 
-def focal_form(
-    f: CarrierSite, g: CarrierSite, e: int, tolerance: float, angle: float
-) -> FocalForm | None:
+def focal_form(f: CarrierSite, g: CarrierSite, e: int, tolerance: float) -> FocalForm | None:
     """The Voronoi surface s_f = e s_g in the form rho = L, where it has one."""
     for one, two in ((f, g), (g, f)):
         if isinstance(one, PlaneSite) and isinstance(two, (CylinderSite, ConeSite)):
@@ -56,8 +54,6 @@ def focal_form(
         if isinstance(one, TorusSite) and isinstance(two, SphereSite):
             equal = abs(float(one.minor - e * two.radius)) <= tolerance
             return _ring_and_ball(one, two) if equal else None
-    if isinstance(f, ConeSite) and isinstance(g, ConeSite):
-        return _shifted_cones(f, g, e, tolerance, angle)
     return None
 
 
@@ -87,31 +83,6 @@ def _ring_and_ball(ring: TorusSite, ball: SphereSite) -> FocalForm:
     gradient = moved(ORIGIN, 1 / major, minus(q, c))
     constant = (inner(c, c) + major**2 - inner(q, q)) / (2 * major)
     return FocalForm(Axis(c, ring.axis), gradient, constant)
-
-
-def _shifted_cones(
-    f: ConeSite, g: ConeSite, e: int, tolerance: float, angle: float
-) -> FocalForm | None:
-    """Cones that a translation takes into each other: the difference of the offsets is linear.
-
-    cos^2 rho^2 - (z sin + d)^2 with z_g = z_f - h gives, by subtraction, 2 (d + z_f sin) h sin =
-    cos^2 (rho_g^2 - rho_f^2) + h^2 sin^2 =: M, which is linear. Hence rho_f cos = M / (2 h sin).
-    """
-    same = aligned(f.axis, g.axis, angle) > 0 and abs(float(f.sine - g.sine)) <= angle
-    if e < 0 or not same:
-        return None
-    size = length(f.axis)
-    shift = minus(g.apex, f.apex)
-    h = inner(shift, f.axis) / size
-    if abs(float(h)) <= tolerance:
-        return None
-    # rho_g^2 - rho_f^2 = -2 (shift - h axis) . (p - apex) + |shift|^2 - h^2
-    across = moved(shift, -h / size, f.axis)
-    gradient = moved(ORIGIN, -2 * f.cosine**2, across)
-    constant = f.cosine**2 * inner(across, across) + h**2 * f.sine**2
-    constant -= inner(gradient, f.apex)
-    scale = 1 / (2 * h * f.sine * f.cosine)
-    return FocalForm(Axis(f.apex, f.axis), moved(ORIGIN, scale, gradient), scale * constant)
 
 
 def focal_surface(

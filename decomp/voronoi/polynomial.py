@@ -80,7 +80,7 @@ class Polynomial:
     @property
     def terms(self) -> dict[tuple[int, int, int], int]:
         """Coefficients by the exponents of x, y, z."""
-        return {(e[0], e[1], e[2]): int(c.p) for e, c in self.raw.to_dict().items()}
+        return {(int(e[0]), int(e[1]), int(e[2])): int(c.p) for e, c in self.raw.to_dict().items()}
 
     @property
     def text(self) -> str:
@@ -129,7 +129,7 @@ class Polynomial:
         """The terms about the centre."""
         x, y, z = (v + rational(c) for v, c in zip((X, Y, Z), self.centre, strict=True))
         items = self.raw.compose(x, y, z, D).to_dict().items()
-        return {(e[0], e[1], e[2]): Fraction(int(c.p), int(c.q)) for e, c in items}
+        return {(int(e[0]), int(e[1]), int(e[2])): Fraction(int(c.p), int(c.q)) for e, c in items}
 
     @cached_property
     def _largest(self) -> Fraction:

@@ -8,13 +8,21 @@ from decomp.voronoi.differences import (
     equal_rings,
     equal_tubes,
     parallel_tubes,
+    tubes_for_cones,
     two_planes,
 )
 from decomp.voronoi.focal import focal_form, focal_surface
 from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.position import aligned, common_axis
 from decomp.voronoi.shape import Shape
-from decomp.voronoi.sites import CarrierSite, CylinderSite, PlaneSite, SphereSite, TorusSite
+from decomp.voronoi.sites import (
+    CarrierSite,
+    ConeSite,
+    CylinderSite,
+    PlaneSite,
+    SphereSite,
+    TorusSite,
+)
 
 
 def recognise(
@@ -36,7 +44,7 @@ def recognise(
         return coaxial_surface(f, g, e, axis, tolerance, angle)
     if isinstance(f, PlaneSite) and isinstance(g, PlaneSite):
         return two_planes(f, g, e)
-    form = focal_form(f, g, e, tolerance, angle)
+    form = focal_form(f, g, e, tolerance)
     if form is not None:
         return focal_surface(form, tolerance, angle)
     if isinstance(f, SphereSite) and isinstance(g, CylinderSite):
@@ -49,6 +57,9 @@ def recognise(
             return parallel_tubes(f, g, e, tolerance, angle)
         equal = abs(float(f.radius - e * g.radius)) <= tolerance
         return equal_tubes(f, g, tolerance) if equal else None
+    if isinstance(f, ConeSite) and isinstance(g, ConeSite):
+        tubes = tubes_for_cones(f, g, e, angle)
+        return None if tubes is None else parallel_tubes(*tubes, e, tolerance, angle)
     if isinstance(f, TorusSite) and isinstance(g, TorusSite) and e > 0:
         sizes = abs(float(f.major - g.major)), abs(float(f.minor - g.minor))
         gaps = [abs(float(a - b)) for a, b in zip(f.centre, g.centre, strict=True)]

@@ -60,3 +60,17 @@ def off_polynomial(surface: VoronoiSurface, p: Array) -> Array:
     doubtful = np.abs(value) > 1e-10 * slope * surface.size
     value[doubtful] = polynomial.exactly(p[doubtful])
     return np.asarray(np.abs(value) / np.where(slope > 0, slope, 1.0) / surface.size)
+
+
+def check(surface: VoronoiSurface, seed: int = 1, count: int = 60, needed: bool = True) -> Array:
+    """Assert that points found without algebra lie on the surface's equations; return them.
+
+    Args:
+        needed: whether there must be such points.
+    """
+    points = equidistant_points(surface, seed, count)
+    assert len(points) or not needed, "no equidistant points were found"
+    assert off_polynomial(surface, points).max(initial=0.0) <= 1e-9
+    if surface.shape is not None:
+        assert surface.shape.deviation(points).max(initial=0.0) <= 1e-9 * surface.size
+    return points
