@@ -24,8 +24,9 @@ from decomp.voronoi.recognise import recognise
 from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import CarrierSite, SphereSite, VoronoiSite, of_carrier
 
-NEWTON_STEPS = 30
+NEWTON_STEPS = 40
 """Steps of a projection; it converges quadratically, within about six from close by."""
+HALVINGS = 12
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,14 +99,22 @@ class VoronoiSurface:
             GeometryError: a point does not reach the surface, as where it is empty.
         """
         q = np.array(p, dtype=np.float64)
+        value = self.difference(q)
         for _ in range(NEWTON_STEPS):
-            value, slope = self.difference(q), self.difference_gradient(q)
-            square = dot(slope, slope)
-            step = np.where(square > 1e-24, value / np.where(square > 1e-24, square, 1.0), 0.0)
-            # no farther than the distances allow: they change by at most 1 per length
-            q = q - np.clip(step, -self.size, self.size)[..., None] * slope
             if float(np.max(np.abs(value), initial=0.0)) <= 1e-15 * self.size:
                 break
+            slope = self.difference_gradient(q)
+            square = dot(slope, slope)
+            step = np.where(square > 1e-24, value / np.where(square > 1e-24, square, 1.0), 0.0)
+            step = np.clip(step, -self.size, self.size)[..., None] * slope
+            # across a reflexive locus the gradient jumps: then a shorter step is taken
+            for _ in range(HALVINGS):
+                ahead = self.difference(q - step)
+                worse = np.abs(ahead) > np.abs(value)
+                if not worse.any():
+                    break
+                step = np.where(worse[..., None], step / 2, step)
+            q, value = q - step, ahead
         lost = ~self.contains(q)
         if lost.any():
             where = np.asarray(p, dtype=np.float64)[lost].reshape(-1, 3)[0]

@@ -85,3 +85,9 @@ def across(way: Vector) -> tuple[Vector, Vector]:
         (Fraction(one[0]), Fraction(one[1]), Fraction(one[2])),
         (Fraction(two[0]), Fraction(two[1]), Fraction(two[2])),
     )
+
+
+def at(point: Vector, way: Vector, t: Fraction) -> Vector:
+    """The point at distance t from `point` along `way`, whose length is rational."""
+    size = Fraction(round(float(sum(x * x for x in way)) ** 0.5))
+    return on(point, way, t / size)
