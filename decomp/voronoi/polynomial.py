@@ -19,7 +19,8 @@ Raw: TypeAlias = fmpq_mpoly
 
 RING = fmpq_mpoly_ctx.get(("x", "y", "z", "d"), Ordering.degrevlex)
 X, Y, Z, D = RING.gens()
-NAMES = ("x", "y", "z")
+TERMS = 64
+"""Terms that are evaluated at a time."""
 
 
 def rational(value: Fraction) -> fmpq:
@@ -162,6 +163,9 @@ def _values(terms: tuple[Array, Any], p: Array) -> Array:
     for k in range(1, len(powers)):
         powers[k] = powers[k - 1] * p
     total = np.zeros(p.shape[:-1])
-    for c, (i, j, k) in zip(coefficients, exponents, strict=True):
-        total = total + c * powers[i, ..., 0] * powers[j, ..., 1] * powers[k, ..., 2]
+    for start in range(0, len(coefficients), TERMS):
+        c = coefficients[start : start + TERMS]
+        i, j, k = exponents[start : start + TERMS].T
+        monomials = powers[i, ..., 0] * powers[j, ..., 1] * powers[k, ..., 2]
+        total = total + np.tensordot(c, monomials, axes=1)
     return total

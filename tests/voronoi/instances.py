@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from hypothesis import settings
+from hypothesis import Phase, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
@@ -17,7 +17,9 @@ from decomp.voronoi import (
 )
 from decomp.voronoi.exact import Vector
 
-FEW = settings(max_examples=12, deadline=None, derandomize=True)
+FEW = settings(
+    max_examples=12, deadline=None, derandomize=True, phases=[Phase.explicit, Phase.generate]
+)
 
 WAYS: list[Vector] = [
     (Fraction(x), Fraction(y), Fraction(z))
