@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from decomp.cli import cells, check, convert, info, mesh, skeleton
+from decomp.cli import cells, check, convert, describe, info, mesh, skeleton
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -17,11 +17,12 @@ examples:
   decomp info part.csg --json          the same for programs
   decomp convert part.geo part.json    from Netgen or OpenSCAD to decomp's own form
   decomp skeleton part.geo -o part.vtu its skeleton, for ParaView
+  decomp describe part.geo             what surface every sheet of it lies on
   decomp cells part.geo -o cells       the parts into which the skeleton cuts it
 """
 
 INTERRUPTED = 130
-COMMANDS = (mesh, check, info, skeleton, cells, convert)
+COMMANDS = (mesh, check, info, skeleton, describe, cells, convert)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -88,6 +88,28 @@ class Polynomial:
         """The equation, as in `x^2 - 8*y - z^2 = 0`."""
         return f"{self.raw} = 0"
 
+    def decimals(self, digits: int = 9) -> str:
+        """The equation with rounded coefficients, the largest 1 unless all are short integers."""
+        items = [(e, Fraction(int(c.p), int(c.q))) for e, c in self.raw.to_dict().items()]
+        largest = max((abs(c) for _, c in items), default=Fraction(1))
+        if largest < 10**digits:
+            return self.text
+        words: list[str] = []
+        for exponents, coefficient in items:
+            value = float(coefficient / largest)
+            if abs(value) < 0.5 * 10.0**-digits:
+                continue
+            powers = [
+                name if n == 1 else f"{name}^{int(n)}"
+                for name, n in zip("xyz", exponents, strict=False)
+                if n
+            ]
+            number = f"{abs(value):.{digits}g}"
+            factors = powers if number == "1" and powers else [number, *powers]
+            sign = ("- " if value < 0 else "+ ") if words else ("-" if value < 0 else "")
+            words.append(sign + "*".join(factors))
+        return f"{' '.join(words)} = 0"
+
     def __call__(self, p: Array) -> Array:
         """Values (...) at points (..., 3), in units of the largest coefficient about the centre."""
         return _values(self._expanded, self._local(p))

@@ -1,0 +1,110 @@
+"""What surface each sheet of a skeleton lies on: kind, degree, equation, canonical parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
+from decomp.parity import Parity
+from decomp.sites.site import Site, SiteKind
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array
+from decomp.voronoi import (
+    Kind,
+    PlaneSite,
+    Polynomial,
+    Shape,
+    VoronoiSite,
+    VoronoiSurface,
+    site_of,
+    surface,
+)
+from decomp.voronoi.exact import exact_vector
+from decomp.voronoi.shape import shape
+
+
+@dataclass(frozen=True, eq=False)
+class SheetKind:
+    """What a sheet lies on.
+
+    Args:
+        sites: f and g.
+        parity: by the sides on which the sheet lies; even between points and curves.
+        shape: kind and canonical parameters, None for a general surface.
+        surface: Vor(f, g), None for an edge's sheet with itself.
+    """
+
+    sites: tuple[Site, Site]
+    parity: Parity
+    shape: Shape | None
+    surface: VoronoiSurface | None
+
+    @property
+    def kind(self) -> Kind:
+        """In the field's words."""
+        return Kind.GENERAL if self.shape is None else self.shape.kind
+
+    @property
+    def polynomial(self) -> Polynomial | None:
+        """Its equation, None where none is known."""
+        if self.surface is not None:
+            return self.surface.polynomial
+        if self.shape is None:
+            return None
+        plane = PlaneSite(exact_vector(self.shape.origin, "a point"), self.shape.axes[2].tolist())
+        return Polynomial.of(plane.distance, plane.point)
+
+    @property
+    def degree(self) -> int | None:
+        """Of its equation."""
+        return None if self.polynomial is None else self.polynomial.degree
+
+    def equation(self, digits: int = 9) -> str | None:
+        """Its equation in the model's coordinates, None where none is known."""
+        return None if self.polynomial is None else self.polynomial.decimals(digits)
+
+
+def sheet_kinds(skeleton: Skeleton, region: RegionSkeleton) -> tuple[SheetKind, ...]:
+    """What the sheets of a region lie on, in their order."""
+    return tuple(sheet_kind(skeleton, region, sheet) for sheet in region.sheets)
+
+
+def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> SheetKind:
+    """What one sheet of a region lies on."""
+    boundary, size = region.boundary, skeleton.diagonal
+    pair = skeleton.sites[sheet.sites[0]], skeleton.sites[sheet.sites[1]]
+    if sheet.sites[0] == sheet.sites[1]:
+        used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
+        plane = _plane_through(skeleton.complex.points[used], size)
+        return SheetKind(pair, Parity.EVEN, plane, None)
+    one, two = (voronoi_site(boundary, site) for site in pair)
+    sides = {_side(boundary, site) for site in pair}
+    parity = Parity.EVEN if len(sides) == 1 else Parity.ODD
+    found = surface(one, two, parity, size=size)
+    return SheetKind(pair, parity, found.shape, found)
+
+
+def voronoi_site(boundary: RegionBoundary, site: Site) -> VoronoiSite:
+    """A boundary's site as a site of Voronoi surfaces: whole carriers, lines and circles."""
+    if site.kind is SiteKind.FACE:
+        return site_of(boundary.carriers[boundary.faces[site.index].carrier])
+    if site.kind is SiteKind.EDGE:
+        return site_of(boundary.edges[site.index].curve)
+    return site_of(boundary.vertices[site.index].point)
+
+
+def _side(boundary: RegionBoundary, site: Site) -> int:
+    """+1 where the region lies outside the site: always for edges and vertices."""
+    return -boundary.faces[site.index].outward if site.kind is SiteKind.FACE else 1
+
+
+def _plane_through(points: Array, size: float) -> Shape | None:
+    """The plane of a sheet that an edge has with itself, its plane of symmetry."""
+    middle = points.mean(axis=0)
+    _, _, axes = np.linalg.svd(points - middle, full_matrices=False)
+    if float(np.abs((points - middle) @ axes[2]).max()) > TOLERANCE * size:
+        return None
+    return shape(Kind.PLANE, middle, axes[2])

@@ -1,0 +1,121 @@
+"""What the sheets of skeletons lie on: figures 1, 2 and 4 of the paper, and other solids."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from decomp.cli.main import main
+from decomp.medial.sheet_kinds import sheet_kinds
+from decomp.voronoi import Kind
+from tests.skeleton.computed import skeleton_of
+
+MODELS = [
+    "block",
+    "through hole",
+    "blind hole",
+    "bracket",
+    "countersink",
+    "round boss",
+    "unequal tee",
+    "lens",
+    "eccentric hole",
+    "capsule",
+]
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_vertices_lie_on_the_equations(model: str) -> None:
+    """To 1e-10 of the diagonal; naming takes less than a tenth of the skeleton's time."""
+    skeleton = skeleton_of(model)
+    for region in skeleton.regions:
+        for sheet, kind in zip(region.sheets, sheet_kinds(skeleton, region), strict=True):
+            used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
+            p = skeleton.complex.points[used]
+            if kind.shape is not None:
+                assert kind.shape.deviation(p).max() <= 1e-10 * skeleton.diagonal
+            if kind.surface is not None:
+                off = np.abs(kind.surface.difference(p)).max()
+                assert off <= 1e-10 * skeleton.diagonal
+                assert sheet.parity is None or kind.parity.value == sheet.parity.value
+            polynomial = kind.polynomial
+            assert polynomial is not None
+            slope = np.linalg.norm(polynomial.gradient(p), axis=1)
+            clear = slope > 1e-6 * slope.max()
+            assert (np.abs(polynomial(p)) / np.where(clear, slope, np.inf)).max() <= (
+                1e-9 * skeleton.diagonal
+            )
+
+
+def kinds_of(model: str) -> Counter[Kind]:
+    skeleton = skeleton_of(model)
+    (region,) = skeleton.regions
+    return Counter(kind.kind for kind in sheet_kinds(skeleton, region))
+
+
+def test_figure_1_block() -> None:
+    """13 planes."""
+    assert kinds_of("block") == {Kind.PLANE: 13}
+
+
+def test_figure_2_and_4_blind_hole() -> None:
+    """Under the hole a plane, around it a parabolic torus, beside it a cone."""
+    skeleton = skeleton_of("blind hole")
+    (region,) = skeleton.regions
+    found = {}
+    for kind in sheet_kinds(skeleton, region):
+        found["/".join(sorted(site.name for site in kind.sites))] = kind.kind
+    assert found["hole.base/plate.zmin"] is Kind.PLANE
+    assert found["hole.base|hole.side/plate.zmin"] is Kind.REVOLVED_PARABOLA
+    assert found["hole.side/plate.zmax"] is Kind.CIRCULAR_CONE
+    assert found["hole.side/plate.xmin"] is Kind.PARABOLIC_CYLINDER
+
+
+def test_naming_costs_little() -> None:
+    """Less than a tenth of a skeleton's time, equations included."""
+    import decomp
+    from tests.solids import SOLIDS
+
+    skeleton_of("blind hole")
+    start = time.process_time()
+    skeleton = decomp.skeleton(SOLIDS["blind hole"].make())
+    middle = time.process_time()
+    for region in skeleton.regions:
+        for kind in sheet_kinds(skeleton, region):
+            assert kind.equation()
+    assert time.process_time() - middle <= 0.1 * (middle - start)
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    path = tmp_path / "bar.geo"
+    path.write_text("algebraic3d\nsolid bar = orthobrick (0, 0, 0; 4, 1, 1);\ntlo bar;\n")
+    return path
+
+
+def test_describe(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["describe", str(model), "--quiet"]) == 0
+    out = capsys.readouterr().out
+    assert "y - z = 0" in out
+    assert "plane, degree 1" in out
+    assert "even" in out
+    assert main(["describe", str(model), "--json", "--quiet"]) == 0
+    (region,) = json.loads(capsys.readouterr().out)["regions"]
+    assert len(region["sheets"]) == 12
+    for row in region["sheets"]:
+        assert (row["kind"], row["degree"]) == ("plane", 1)
+        assert row["equation"].endswith("= 0")
+        assert len(row["axes"]) == 3
+        # the frame's z axis is the plane's normal, its origin on the plane
+        assert np.linalg.norm(row["axes"][2]) == pytest.approx(1)
+    assert main(["describe", str(model), "--digits", "0", "--quiet"]) == 2
+
+
+def test_describe_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["describe", str(tmp_path / "missing.geo")]) != 0
+    assert "error" in capsys.readouterr().err
