@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from decomp.boundary.topology import Convexity
-from decomp.carriers.reflexive import reflexive_gap
+from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.errors import GeometryError
 from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.normal_curves import NormalCurve
@@ -138,6 +138,7 @@ class TrimScanner:
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
             own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
+            own[a:b] |= past_locus(incidence, curve.sites, feet[a:b], balls.radius[a:b])
         away = balls.centre - hits
         length = norm(away)
         found: list[_Sample] = []
@@ -249,6 +250,26 @@ def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools
             face = boundary.faces[it.index]
             gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
             result |= gap <= LOCUS * boundary.diagonal
+    return result
+
+
+def past_locus(incidence: Incidence, sites: Sequence[int], feet: Array, radius: Array) -> Bools:
+    """Whether balls at feet (k, 3) reach the centres of curvature of one of some faces' carriers.
+
+    No ball is larger: along an edge a face's carrier is on one side at least. But one over a point
+    where the edge runs along the carrier's strongest curvature comes to rest a little late.
+    """
+    result = np.zeros(len(feet), dtype=np.bool_)
+    boundary = incidence.boundary
+    for site in sites:
+        it = incidence.sites[site]
+        if it.kind is not SiteKind.FACE:
+            continue
+        face = boundary.faces[it.index]
+        carrier = boundary.carriers[face.carrier]
+        if np.isfinite(reflexive_gap(carrier, face.outward, feet[:1])).all():
+            most = inner_radius(carrier, face.outward, feet)
+            result |= (most > 0) & (radius >= (1 - LOCUS) * most)
     return result
 
 
