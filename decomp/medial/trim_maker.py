@@ -52,6 +52,28 @@ def owners(curves: RegionCurves) -> dict[int, int]:
     return owner
 
 
+class _Centres:
+    """The centres (k, 3) of a run along a reflexive locus, and what lies between them."""
+
+    def __init__(self, points: Array, slack: float) -> None:
+        self._points, self._slack = points, slack
+        self._tree = cKDTree(points)
+        self._reach = float(norm(np.diff(points, axis=0)).max())
+
+    def nearest(self, points: Array) -> Ints:
+        """Which centre is nearest to each of some points."""
+        return np.asarray(self._tree.query(points)[1], dtype=np.int64)
+
+    def hold(self, points: Array) -> bool:
+        """Whether all of some points of the locus are between the first and the last centre."""
+        gaps, rows = self._tree.query(points)
+        last = len(self._points) - 1
+        beside = np.where(rows == 0, 1, np.where(rows == last, last - 1, rows))
+        inwards = self._points[beside] - self._points[rows]
+        past = dot(points - self._points[rows], inwards) < 0
+        return bool(((gaps <= self._reach) & (~past | (gaps <= self._slack))).all())
+
+
 class TrimMaker:
     """Makes the trim surfaces between the cells of different faces."""
 
@@ -131,27 +153,26 @@ class TrimMaker:
         ends = [self._vertex_at(run.points[k]) for k in (0, -1)]
         if run.resting:
             return np.array(ends), run.s[[0, -1]]
-        middle = run.points[len(run.points) // 2]
-        tree = cKDTree(run.points)
-        reach = float(norm(np.diff(run.points, axis=0)).max())
+        centres = _Centres(run.points, 1e-6 * self._size)
         line = [ends[0]]
         while line[-1] != ends[1]:
-            step = self._next_on_locus(line, tree, reach)
+            step = self._next_on_locus(line, centres)
             if step is None:
-                raise GeometryError(f"no reflexive curve leads past {place(middle)}")
+                middle = place(run.points[len(run.points) // 2])
+                raise GeometryError(f"no reflexive curve leads past {middle}")
             line.extend(step)
         vertices = np.array(line, dtype=np.int64)
-        return vertices, run.s[tree.query(self._points[vertices])[1]]
+        return vertices, run.s[centres.nearest(self._points[vertices])]
 
-    def _next_on_locus(self, line: list[int], tree: cKDTree, reach: float) -> list[int] | None:
-        """The vertices of the reflexive piece that goes on from a polyline beside known centres."""
+    def _next_on_locus(self, line: list[int], centres: _Centres) -> list[int] | None:
+        """The vertices of the reflexive piece that goes on from a polyline along known centres."""
         for piece, vertices in zip(self._curves.pieces, self._lines, strict=True):
             if piece.kind is not LineKind.REFLEXIVE:
                 continue
-            if tree.query(piece.middle)[0] > reach:
-                continue
             for way in (vertices, vertices[::-1]):
-                if way[0] == line[-1] and (len(line) < 2 or way[1] != line[-2]):
+                if way[0] != line[-1] or (len(line) > 1 and way[1] == line[-2]):
+                    continue
+                if centres.hold(np.stack([piece.middle, self._points[way[-1]]])):
                     return [int(v) for v in way[1:]]
         return None
 
