@@ -332,15 +332,18 @@ class _Whole:
     def _lines(self, number: int, sheets: tuple[Sheet, ...]) -> list[tuple[LineKind, SkeletonLine]]:
         """Seams, trims and rims, by the number of sheets that meet along them."""
         meeting: dict[tuple[int, int], list[int]] = {}
+        drawn = [self.complex.lines[line].vertices for line in self._line[number]]
+        firsts = np.array([np.sort(vertices[:2]) for vertices in drawn]).reshape(-1, 2)
         for k, sheet in enumerate(sheets):
-            for side in _border(self.complex.patches[sheet.patch].triangles).tolist():
+            for side in _sides_among(self.complex.patches[sheet.patch].triangles, firsts).tolist():
                 meeting.setdefault((side[0], side[1]), []).append(k)
         found = []
         curves = self._curves[number]
-        for piece, line_number in zip(curves.pieces, self._line[number], strict=True):
+        for piece, first, line_number in zip(
+            curves.pieces, firsts.tolist(), self._line[number], strict=True
+        ):
             vertices = self.complex.lines[line_number].vertices
-            first = (int(min(vertices[:2])), int(max(vertices[:2])))
-            around = meeting.get(first, [])
+            around = meeting.get((first[0], first[1]), [])
             if not around:
                 continue
             kind = _kind(len(around))
@@ -405,11 +408,16 @@ def _kind(sheets: int) -> LineKind:
     return LineKind.TRIM if sheets == 2 else LineKind.RIM
 
 
-def _border(triangles: Ints) -> Ints:
-    """The sides (k, 2) that belong to one triangle of a patch, lower vertex first."""
+def _sides_among(triangles: Ints, segments: Ints) -> Ints:
+    """Those sides of triangles (lower vertex first) that are among segments (k, 2).
+
+    A segment stands as often as triangles meet there: twice where a sheet lies on both sides.
+    """
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    unique, count = np.unique(np.sort(sides, axis=1), axis=0, return_counts=True)
-    return np.asarray(unique[count == 1])
+    sides = np.sort(sides, axis=1)
+    stride = int(max(triangles.max(initial=0), segments.max(initial=0))) + 1
+    wanted = segments[:, 0] * stride + segments[:, 1]
+    return np.asarray(sides[np.isin(sides[:, 0] * stride + sides[:, 1], wanted)])
 
 
 def _parity(curves: RegionCurves, pair: tuple[int, int]) -> Parity | None:

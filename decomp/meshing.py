@@ -19,13 +19,16 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
-from decomp.tetra.child import Settings, tetrahedralized
+from decomp.tetra.child import EDGE_IN_EPSILONS, Settings, tetrahedralized
 from decomp.tetra.classify import classified, region_of
+from decomp.tetra.features import fitting_epsilon, usual_epsilon
+from decomp.tetra.field import size_field
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.project import Projector
-from decomp.tetra.surface import SurfaceMaker
+from decomp.tetra.sizes import Wanted, region_sizes, wishes
+from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
@@ -43,7 +46,6 @@ def mesh(
     cells: Literal["skeleton", "face"] = "skeleton",
     volumes: Literal["cells", "regions"] = "cells",
     sheets: bool = True,
-    tolerance: float = 1e-3,
     timeout: float = 600.0,
     progress: Progress | None = None,
 ) -> TetMesh:
@@ -58,7 +60,6 @@ def mesh(
         cells: `skeleton`, or `face` for one cell for each boundary face.
         volumes: `cells`, or `regions` for one physical volume for each region.
         sheets: whether triangles between the cells of a region are tagged.
-        tolerance: of the triangles that TetWild gets, relative to the model's diagonal.
         timeout: seconds that TetWild may take.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
@@ -70,14 +71,20 @@ def mesh(
     """
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
+    wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
-    made = maker.made(tolerance * geometry.diagonal, cells == "face")
+    made, epsilon = _surface(geometry, maker, cells == "face")
+    tell("sizing", 0.3)
+    wish = wishes(geometry, made, wanted)
+    sizes = region_sizes(geometry, wanted)
+    settings = Settings(
+        float(wish.lengths.max()), min(epsilon, float(wish.lengths.min()) / EDGE_IN_EPSILONS)
+    )
+    field = size_field(geometry, wish, sizes)
     known = cell_map(made)
     plan = layout(made, known)
-    edge = size or geometry.diagonal / 20
-    settings = Settings(edge, min(2e-3 * geometry.diagonal, edge / 6))
     tell("TetWild", 0.4)
-    raw = tetrahedralized(*_soup(plan.complex.points, plan.triangles), settings, None, timeout)
+    raw = tetrahedralized(*_soup(plan.complex.points, plan.triangles), settings, field, timeout)
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
     label, faces = classified(geometry, known, raw.points, raw.tets, epsilon)
@@ -106,6 +113,16 @@ def mesh(
         (*solid, *groups),
         np.searchsorted(used, moved.left),
     )
+
+
+def _surface(geometry: Geometry, maker: SurfaceMaker, by_face: bool) -> tuple[MeshSurface, float]:
+    """The complex, and the epsilon that it is fine enough for."""
+    epsilon = usual_epsilon(geometry)
+    made = maker.made(epsilon / 2, by_face)
+    fitting = fitting_epsilon(geometry, made, epsilon)
+    if fitting < 0.99 * epsilon:
+        made = maker.made(fitting / 2, by_face)
+    return made, fitting
 
 
 def _soup(points: Array, triangles: Ints) -> tuple[Array, Ints]:

@@ -27,7 +27,6 @@ TIMEOUT = 600.0
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
-    from decomp.cli.computing import add_options
     from decomp.output.mesh import SUFFIXES
 
     parser: argparse.ArgumentParser = commands.add_parser(
@@ -39,7 +38,7 @@ def register(commands: Any) -> None:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    add_options(parser)
+    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
     parser.add_argument(
         "-o",
         "--output",
@@ -50,6 +49,7 @@ def register(commands: Any) -> None:
         help=f"file to write, ending in {', '.join(SUFFIXES)}; may be given several times "
         "(default: the model's name with .msh, in this directory)",
     )
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _size_options(parser)
     _tag_options(parser)
     _file_options(parser)
@@ -119,6 +119,13 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"seconds that TetWild may take (default {TIMEOUT:g})",
     )
+    group.add_argument(
+        "--tolerance",
+        type=_positive,
+        metavar="T",
+        help="how far TetWild may stray from the exact surfaces before nodes are moved onto them, "
+        "relative to the model's diagonal (default: from the model)",
+    )
 
 
 def run(options: argparse.Namespace) -> None:
@@ -172,9 +179,9 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
             cells=options.cells,
             volumes=options.volumes,
             sheets=options.sheets,
-            tolerance=options.tolerance,
             timeout=options.timeout,
             progress=stages,
+            **({} if options.tolerance is None else {"tolerance": options.tolerance}),
         )
         spent = stages.spent()
     return made, report(made, {each.name: each.volume for each in geometry.regions}, spent)

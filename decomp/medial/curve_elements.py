@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
@@ -12,7 +14,10 @@ from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive import Locus
 from decomp.medial.trims import solve_radius
 from decomp.tracing.equidistance import equidistant
-from decomp.vectors import Array, Ints, nearest_rows, norm, place
+from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place
+
+MERGED = 1e-3
+"""Feet on one site nearer than this part of the radius are not told apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,12 +42,27 @@ class SeamCurve:
             GeometryError: Newton's method fails at one of them.
         """
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        feet = self.feet[nearest_rows(self.points, points)]
+        feet = self.feet[self._apart][nearest_rows(self.points[self._apart], points)]
         found = equidistant(self.incidence.boundary, self.incidence.sites, which, points, feet)
         if not found.converged.all():
             bad = points[~found.converged][0]
             raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
         return found.points
+
+    @cached_property
+    def _apart(self) -> Bools:
+        """At which known points (k,) the contacts that share a site are two.
+
+        Where they have run together, at an end of the seam, their common foot leads nowhere.
+        """
+        good = np.ones(len(self.points), dtype=np.bool_)
+        for i, j in combinations(range(len(self.sites)), 2):
+            if self.sites[i] == self.sites[j]:
+                gap = norm(self.feet[:, i] - self.feet[:, j])
+                good &= gap > MERGED * norm(self.points - self.feet[:, i])
+        if not good.any():
+            raise GeometryError(f"the seam at {place(self.points[0])} has contacts that are one")
+        return good
 
 
 @dataclass(frozen=True, eq=False)

@@ -71,9 +71,16 @@ class Incidence:
         return np.asarray(along / norm(along))
 
     def feet(self, sites: Sequence[int], points: Array) -> Array:
-        """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest samples."""
+        """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest samples.
+
+        An edge that stands twice among the sites has two feet, unless they have run together.
+        """
         found = np.empty((len(points), len(sites), 3))
         for column, site in enumerate(sites):
+            before = [k for k in range(column) if sites[k] == site]
+            if before:
+                found[:, [*before, column]] = self._several(site, points, len(before) + 1)
+                continue
             which = np.full(len(points), site, dtype=np.int64)
             it = self.sites[site]
             guess = points
@@ -81,6 +88,22 @@ class Incidence:
                 samples = self.boundary.edges[it.index].samples
                 guess = samples[nearest_rows(samples, points)]
             found[:, column] = site_fields(self.boundary, self.sites, which, points, guess).foot
+        return found
+
+    def _several(self, site: int, points: Array, count: int) -> Array:
+        """The nearest feet (k, count, 3) of points (k, 3) on an edge, from all its samples."""
+        samples = self.boundary.edges[self.sites[site].index].samples
+        found = np.empty((len(points), count, 3))
+        which = np.full(len(samples), site, dtype=np.int64)
+        for row, point in enumerate(points):
+            at = np.repeat(point[None], len(samples), axis=0)
+            field = site_fields(self.boundary, self.sites, which, at, samples)
+            order = np.argsort(field.distance, kind="stable")
+            feet: list[Array] = []
+            for foot in field.foot[order]:
+                if all(float(norm(foot - other)) > NEAR * self._size for other in feet):
+                    feet.append(foot)
+            found[row] = (feet * count)[:count] if len(feet) < count else feet[:count]
         return found
 
     def touched(self, site: int, foot: Array, direction: Array) -> tuple[int, ...]:

@@ -102,7 +102,7 @@ class SheetSurface:
             self.incidence.sites,
             which,
             points,
-            self.feet[self._nearest(points)],
+            self._feet_near(points),
         )
         return found.points, found.converged
 
@@ -112,11 +112,11 @@ class SheetSurface:
         Where a point is on a site itself (at a vertex in which a reentrant edge ends) the normal
         is that of the known point nearest to it that is not.
         """
-        difference = self._difference(points, self._nearest(points))
+        difference = self._difference(points, self._feet_near(points))
         length = norm(difference)
         lost = length <= CLEAR
         if lost.any():
-            known = self._difference(self.points, np.arange(len(self.points)))
+            known = self._difference(self.points, self.feet)
             good = np.flatnonzero(norm(known) > 1e-3)
             if not len(good):
                 raise GeometryError(f"the sheet at {place(points[lost][0])} has no normal")
@@ -125,20 +125,33 @@ class SheetSurface:
             length = norm(difference)
         return np.asarray(difference / length[:, None])
 
-    def _difference(self, points: Array, rows: Ints) -> Array:
+    def _difference(self, points: Array, feet: Array) -> Array:
         gradients = []
         it = self.incidence
         for column, site in enumerate(self.sites):
             which: Ints = np.full(len(points), site, dtype=np.int64)
-            field = site_fields(it.boundary, it.sites, which, points, self.feet[rows, column])
+            field = site_fields(it.boundary, it.sites, which, points, feet[:, column])
             gradients.append(field.gradient)
         return np.asarray(gradients[0] - gradients[1])
 
-    def _nearest(self, points: Array) -> Ints:
-        """The known point nearest to each one, if a site's foot depends on it."""
+    def _feet_near(self, points: Array) -> Array:
+        """Feet (k, 2, 3) from which those of points are found, if a site's foot depends on them.
+
+        They are those of the nearest known point, or the nearest on the whole edge: where a sheet
+        lies on both sides of a seam at which an edge has two feet, a known point has only one.
+        """
         if not self._curved:
-            return np.zeros(len(points), dtype=np.int64)
-        return np.asarray(self._tree.query(points)[1], dtype=np.int64)
+            return np.asarray(self.feet[np.zeros(len(points), dtype=np.int64)])
+        it = self.incidence
+        feet = self.feet[self._tree.query(points)[1]]
+        other = it.feet(self.sites, points)
+        for column, site in enumerate(self.sites):
+            which: Ints = np.full(len(points), site, dtype=np.int64)
+            known = site_fields(it.boundary, it.sites, which, points, feet[:, column])
+            gap = known.distance - norm(points - other[:, column])
+            nearer = gap > CLEAR * it.boundary.diagonal
+            feet[nearer, column] = other[nearer, column]
+        return np.asarray(feet)
 
     @cached_property
     def _curved(self) -> bool:

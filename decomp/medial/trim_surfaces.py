@@ -14,8 +14,10 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.medial.normal_curves import NormalCurve
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98)
+RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995)
 """Parts of the normals' lengths at which points are known."""
+CLOSE = 16
+"""So many known points are looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +37,14 @@ class RuledSurface:
     sense: float
     s: Array
     height: Array
-    _known: tuple[cKDTree, Array] = field(init=False)
+    _known: tuple[cKDTree, Array, Array, Array] = field(init=False)
 
     def __post_init__(self) -> None:
         s = np.tile(self.s, len(RUNGS))
         up = np.concatenate([rung * self.height for rung in RUNGS])
-        feet = self.curve.feet(s)
-        points = feet + up[:, None] * self.curve.directions(s)
-        object.__setattr__(self, "_known", (cKDTree(points), s))
+        feet, ways = self.curve.feet(s), self.curve.directions(s)
+        known = (cKDTree(feet + up[:, None] * ways), s, feet, ways)
+        object.__setattr__(self, "_known", known)
 
     def place(self, points: Array) -> Array:
         """Points (k, 3) moved to the normal through their foot."""
@@ -58,8 +60,17 @@ class RuledSurface:
         return np.asarray(across / np.where(length > 0, length, 1.0)[:, None])
 
     def _near(self, points: Array) -> Array:
-        tree, s = self._known
-        return np.asarray(s[tree.query(points)[1]])
+        """Parameters (k,) of the normals closest to points, of those through known points close by.
+
+        Close to where normals of several parts of the edge meet, the closest known point may be
+        on a normal of another part.
+        """
+        tree, s, feet, ways = self._known
+        rows = tree.query(points, k=min(CLOSE, len(s)))[1]
+        away = points[:, None] - feet[rows]
+        across = away - dot(away, ways[rows])[..., None] * ways[rows]
+        best = np.argmin(dot(across, across), axis=1)
+        return np.asarray(s[rows[np.arange(len(points)), best]])
 
 
 def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:

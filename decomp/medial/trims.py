@@ -14,14 +14,16 @@ from itertools import pairwise
 import numpy as np
 
 from decomp.boundary.topology import Convexity
-from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.errors import GeometryError
 from decomp.medial.incidence import NEAR, Incidence
+from decomp.medial.locus_touches import touches
 from decomp.medial.normal_curves import NormalCurve
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
+from decomp.tracing import loci
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
+from decomp.tracing.loci import locus_gap
 from decomp.vectors import Array, Bools, Ints, dot, norm, place
 
 SAMPLES = 96
@@ -78,10 +80,36 @@ class TrimScanner:
             if curve.closed:
                 found.append(replace(found[0], s=curve.end))
         cuts = self._changes(curves, samples)
-        return [
-            self._between(c, known, cut, [self._change(c, low, high) for low, high in cut])
-            for c, known, cut in zip(curves, samples, cuts, strict=True)
-        ]
+        result = []
+        for c, known, cut in zip(curves, samples, cuts, strict=True):
+            bounds = [self._change(c, low, high) for low, high in cut]
+            whole = self._between(c, known, cut, bounds)
+            result.append([part for piece in whole for part in self._turning(piece, known)])
+        return result
+
+    def _turning(self, piece: TrimPiece, samples: list[_Sample]) -> list[TrimPiece]:
+        """The parts of a piece between the places where it turns back at a reflexive locus."""
+        curve, incidence = piece.over, self._incidence
+        if piece.far == tuple(sorted(curve.sites)):
+            return [piece]
+        known = np.array([x.s for x in samples])
+        if curve.closed:
+            period = curve.end - curve.start
+            known = np.unique(np.concatenate([known - period, known, known + period]))
+        known = known[(known > piece.start) & (known < piece.end)]
+
+        def gap(s: Array) -> Array:
+            q, n = curve.feet(s), curve.directions(s)
+            balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
+            return locus_gap(incidence.boundary, incidence.sites, curve.sites, balls.centre)
+
+        stops = touches(self._size, known, gap)
+        if len(stops) == 1 and curve.closed and piece.end - piece.start == period:
+            # one cusp leaves a loop, which is cut once more where it starts
+            piece = replace(piece, start=stops[0], end=stops[0] + period)
+            stops = [stops[0] + period / 2]
+        bounds = [piece.start, *stops, piece.end]
+        return [replace(piece, start=a, end=b) for a, b in pairwise(bounds)]
 
     def _between(
         self,
@@ -138,7 +166,7 @@ class TrimScanner:
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
             own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
-            own[a:b] |= past_locus(incidence, curve.sites, feet[a:b], balls.radius[a:b])
+            own[a:b] |= self._past_locus(curve.sites, feet[a:b], balls.radius[a:b])
         away = balls.centre - hits
         length = norm(away)
         found: list[_Sample] = []
@@ -152,6 +180,11 @@ class TrimScanner:
                 far = incidence.touched(site, hits[k], away[k] / length[k])
             found.append(_Sample(s, far, hits[k], float(balls.radius[k])))
         return [found[a:b] for a, b in pairwise(stops)]
+
+    def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
+        """Whether balls reach a locus, even where they come to rest a little late."""
+        boundary, sites = self._incidence.boundary, self._incidence.sites
+        return loci.past_locus(boundary, sites, which, feet, radius, LOCUS)
 
     def _alone(self, site: Ints, feet: Array) -> Bools:
         """Whether feet (k, 3) on sites (k,) are on faces and clearly on none of their bends."""
@@ -242,35 +275,7 @@ class TrimScanner:
 
 def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools:
     """Whether points (k, 3) are centres of curvature of one of some faces' carriers."""
-    result = np.zeros(len(points), dtype=np.bool_)
-    boundary = incidence.boundary
-    for site in sites:
-        it = incidence.sites[site]
-        if it.kind is SiteKind.FACE:
-            face = boundary.faces[it.index]
-            gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
-            result |= gap <= LOCUS * boundary.diagonal
-    return result
-
-
-def past_locus(incidence: Incidence, sites: Sequence[int], feet: Array, radius: Array) -> Bools:
-    """Whether balls at feet (k, 3) reach the centres of curvature of one of some faces' carriers.
-
-    No ball is larger: along an edge a face's carrier is on one side at least. But one over a point
-    where the edge runs along the carrier's strongest curvature comes to rest a little late.
-    """
-    result = np.zeros(len(feet), dtype=np.bool_)
-    boundary = incidence.boundary
-    for site in sites:
-        it = incidence.sites[site]
-        if it.kind is not SiteKind.FACE:
-            continue
-        face = boundary.faces[it.index]
-        carrier = boundary.carriers[face.carrier]
-        if np.isfinite(reflexive_gap(carrier, face.outward, feet[:1])).all():
-            most = inner_radius(carrier, face.outward, feet)
-            result |= (most > 0) & (radius >= (1 - LOCUS) * most)
-    return result
+    return loci.on_locus(incidence.boundary, incidence.sites, sites, points, LOCUS)
 
 
 def _first(curve: NormalCurve) -> Array:

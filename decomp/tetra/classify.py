@@ -15,10 +15,12 @@ from decomp.tetra.cells import CellMap, locate
 from decomp.tetra.faces import NONE, Faces, faces_of, volumes
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-TOWARDS = 0.8
+TOWARDS = 0.4
 """Points asked lie so far from the middle of a tetrahedron to its vertices."""
 ASIDE = 2.0
 """So many epsilons off a triangle its two sides are asked."""
+NEAR_CORNER = 0.8
+"""It is asked in the middle and so far from there to its corners."""
 ROUNDS = 30
 OWN = 0.5
 """What a tetrahedron's own points count against all of its neighbours."""
@@ -32,7 +34,6 @@ def classified(
     label = votes[:, 0].copy()
     doubt = (votes != label[:, None]).any(axis=1)
     faces = faces_of(tets)
-    label[doubt] = _majority(votes[doubt])
     _follow(geometry, cells, points, tets, faces, votes, doubt, label, epsilon)
     return label, faces
 
@@ -45,22 +46,21 @@ def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Int
     return locate(geometry, cells, asked.reshape(-1, 3)).cell.reshape(len(tets), 5)
 
 
-def _majority(votes: Ints) -> Ints:
-    """The most frequent cell of each row; of the middle if there is no other as frequent."""
-    count = (votes[:, :, None] == votes[:, None, :]).sum(axis=2)
-    return np.asarray(votes[np.arange(len(votes)), np.argmax(count, axis=1)])
-
-
 def walls(
     geometry: Geometry, cells: CellMap, points: Array, triangles: Ints, epsilon: float
 ) -> Bools:
-    """Whether triangles (f, 3) have different cells close to both their sides."""
-    a, b, c = np.moveaxis(points[triangles], 1, 0)
-    normal = cross(b - a, c - a)
+    """Whether triangles (f, 3) have different cells close to both their sides all over.
+
+    Their middles are asked, and places near all three corners.
+    """
+    corners = points[triangles]
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     way = normal * (ASIDE * epsilon / np.maximum(norm(normal), 1e-300))[:, None]
-    middle = (a + b + c) / 3
-    found = locate(geometry, cells, np.concatenate([middle - way, middle + way])).cell
-    return np.asarray(found[: len(middle)] != found[len(middle) :])
+    middle = corners.mean(axis=1, keepdims=True)
+    asked = np.concatenate([middle, middle + NEAR_CORNER * (corners - middle)], axis=1)
+    both = np.concatenate([asked - way[:, None], asked + way[:, None]])
+    found = locate(geometry, cells, both.reshape(-1, 3)).cell.reshape(2, len(triangles), 4)
+    return np.asarray((found[0] != found[1]).all(axis=1))
 
 
 def _follow(

@@ -159,7 +159,7 @@ class Finder:
         gaps = np.stack(
             [polyline_distance(mesh.points[mesh.lines[k].vertices], places) for k in lines]
         )
-        return np.array(lines, dtype=np.int64)[np.argmin(gaps, axis=0)]
+        return np.asarray(np.array(lines, dtype=np.int64)[np.argmin(gaps, axis=0)])
 
     def _on_one_sheet(self, points: Array, tagged: Tagged, rows: Ints, found: Targets) -> None:
         """Nodes between two cells that several sheets part, one going on as the next.

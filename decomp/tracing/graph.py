@@ -15,7 +15,6 @@ from itertools import product
 import numpy as np
 
 from decomp.boundary.topology import Convexity, RegionBoundary
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
@@ -24,6 +23,7 @@ from decomp.tracing.equidistance import balanced
 from decomp.tracing.fields import site_fields
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.loci import on_locus
 from decomp.tracing.seam_graph_model import Node, Piece, Seam, SeamGraph
 from decomp.tracing.seams import SLACK, SeamEnd, SeamTracer, State, Traced
 from decomp.tracing.seeds import Seeds, seam_seeds
@@ -180,7 +180,7 @@ class _Grower:
 
     def _start_inside(self, state: State) -> None:
         """Trace the seam through a point, unless sheets only meet there in a reflexive point."""
-        if self._on_locus(state):
+        if self._on_locus(state.sites, state.point):
             return
         touching = self._tracer.contacts.at(state.point, SLACK * self._size)
         if len(touching.feet) > len(state.sites):
@@ -200,17 +200,9 @@ class _Grower:
         self._seams.add(number, self._between(_joined(back, forward), ends))
         self.grow()
 
-    def _on_locus(self, state: State) -> bool:
+    def _on_locus(self, sites: Sequence[int], point: Array) -> bool:
         """Whether a point is a centre of curvature of a face that is touched from it."""
-        for number in state.sites:
-            site = self._index.sites[number]
-            if site.kind is SiteKind.FACE:
-                face = self._boundary.faces[site.index]
-                carrier = self._boundary.carriers[face.carrier]
-                gap = reflexive_gap(carrier, face.outward, state.point[None])
-                if float(gap[0]) <= LOCUS * self._size:
-                    return True
-        return False
+        return bool(on_locus(self._boundary, self._index.sites, sites, point[None], LOCUS)[0])
 
     def _trace(self, start: State) -> Traced:
         return self._tracer.trace(start, lambda point: self._known_node(point) is not None)
@@ -221,7 +213,7 @@ class _Grower:
         if traced.end is SeamEnd.BOUNDARY:
             node = self._vertex_near(last)
         elif traced.end in (SeamEnd.SPLIT, SeamEnd.FIN):
-            node = self._node_at(last.point)
+            node = self._node_at(last.point, traced.end is SeamEnd.FIN)
         else:
             node = self._junction(last, traced.intruder, traced.foot)
         self._take(node, last, number)
@@ -261,14 +253,21 @@ class _Grower:
             )
         return self._node_at(point)
 
-    def _node_at(self, point: Array) -> int:
-        """The node at a point, a new one unless it is known."""
+    def _node_at(self, point: Array, fin: bool = False) -> int:
+        """The node at a point, a new one unless it is known.
+
+        A fin can end on a reflexive locus, from which a whole arc of a face is as near. No seam
+        leaves with a contact there, which is only one point of the arc.
+        """
         known = self._known_node(point)
         if known is not None:
             return known
         touching = self._tracer.contacts.at(point, SLACK * self._size)
         rays, states = [], []
+        arcs = {k for k, sites in enumerate(touching.sites) if fin and self._on_locus(sites, point)}
         for ray in seam_rays(touching.gradients):
+            if arcs & set(ray.contacts):
+                continue
             for contacts, state in departures(self._tracer, point, touching, ray):
                 rays.append(replace(ray, contacts=contacts))
                 states.append(state)

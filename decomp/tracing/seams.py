@@ -17,6 +17,7 @@ from decomp.errors import GeometryError
 from decomp.sites import Nearest, SiteIndex
 from decomp.tracing.contacts import ContactFinder
 from decomp.tracing.departures import departures
+from decomp.tracing.fins import fin
 from decomp.tracing.following import (
     CLOSED,
     ENDED,
@@ -42,9 +43,8 @@ SLACK = 1e-9
 MERGED = 1e-3
 """Feet nearer than this part of the radius have run together where a seam stops."""
 MET = 1e-6
-WIDE, NARROW, FITTED = 0.2, 0.1, 8
-"""Gaps of feet, relative to the radius, from which the end is extrapolated; the nearest of the
-points taken, relative to the farthest; their number."""
+MERGING = 2e-2
+"""Feet on one site nearer than this part of the radius may be about to run together."""
 FOOT_ON_EDGE = 1e-9
 NEAR_WALL = 1e-3
 """Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
@@ -164,6 +164,11 @@ class SeamTracer:
             )
             steps += count - 1
             last = self._get(room, count - 1, here.sites)
+            if why in (STUCK, INTRUDED, JOINED) and self._about_to_merge(last):
+                merged = self._merging(room, count, here.sites)
+                if merged is not None:
+                    runs.append(self._run(room, merged[0], here.sites))
+                    return Traced(tuple(runs), merged[1], SeamEnd.FIN, -1, nothing)
             if why == STUCK and self._merged(last):
                 kept, at = self._fin(room, count, here.sites)
                 runs.append(self._run(room, kept, here.sites))
@@ -257,6 +262,12 @@ class SeamTracer:
         gaps = norm(state.feet[:, None] - state.feet[None])[np.triu_indices(m, 1)]
         return bool((gaps <= within * state.radius).any())
 
+    def _about_to_merge(self, state: State) -> bool:
+        """Whether two contacts on one site are close to each other."""
+        one, other = self._pair(state)
+        near = float(norm(state.feet[one] - state.feet[other])) <= MERGING * state.radius
+        return near and state.sites[one] == state.sites[other]
+
     def _onwards(self, at: State) -> State | None:
         """The same point with the sites of the seam behind it, None if it does not go on alone.
 
@@ -331,7 +342,7 @@ class SeamTracer:
 
         Either they meet at a vertex, at a wall of their sites, or in the middle of one site: then
         the square of the gap between their feet vanishes linearly along the seam, and the point is
-        found by extrapolation to no gap.
+        found by extrapolation to no gap, see `fins`.
         """
         last = self._get(room, count - 1, sites)
         which = np.array(sites, dtype=np.int64)
@@ -345,48 +356,23 @@ class SeamTracer:
                 if found is not None:
                     base, state, _ = found
                     return self._cut(room, base, state), state
-        return count, self._extrapolated(room, count, sites)
+        return count, last
 
-    def _extrapolated(self, room: Track, count: int, sites: tuple[int, ...]) -> State:
-        """The point of a seam, behind the last of `count` rows, where two feet meet."""
-        last = self._get(room, count - 1, sites)
-        one, other = self._pair(last)
-        m = len(sites)
-        feet = room.feet[: count * m].reshape(count, m, 3)
-        gaps = norm(feet[:, one] - feet[:, other])
-        wide = np.flatnonzero(gaps >= WIDE * last.radius)
-        first = int(wide[-1]) if len(wide) else 0
-        reach = float(norm(room.points[first] - last.point))
-        states = []
-        for part in (1 - np.cos(np.pi * (np.arange(FITTED) + 0.5) / FITTED)) / 2:
-            away = reach * (NARROW + (1 - NARROW) * part)
-            along = norm(room.points[first:count] - last.point)
-            k = first + int(np.argmin(np.abs(along - away)))
-            start = self._get(room, k, sites)
-            shift = (along[k - first] - away) * start.tangent
-            state = self.state(sites, start.point + shift, start.feet, start.tangent)
-            if state is None:
-                return last
-            states.append(state)
-        x = np.array([float(norm(s.feet[one] - s.feet[other])) ** 2 for s in states])
-        # Lagrange weights at gap 0
-        weights = np.array(
-            [
-                np.prod([x[j] / (x[j] - x[i]) for j in range(FITTED) if j != i])
-                for i in range(FITTED)
-            ]
-        )
-
-        def at_end(values: Sequence[Array]) -> Array:
-            return np.asarray(np.tensordot(weights, np.array(values), axes=1))
-
-        middle = at_end([(s.feet[one] + s.feet[other]) / 2 for s in states])
-        spots = at_end([s.feet for s in states])
-        spots[[one, other]] = middle
-        point = at_end([s.point for s in states])
-        if not float(norm(point - last.point)) <= 1e-3 * self.size:
-            return last
-        return replace(last, point=point, feet=spots, radius=float(norm(point - spots[one])))
+    def _merging(self, room: Track, count: int, sites: tuple[int, ...]) -> tuple[int, State] | None:
+        """Where two contacts on one site run together, near the last of `count` rows."""
+        rows = [self._get(room, k, sites) for k in range(count)]
+        one, other = self._pair(rows[-1])
+        if sites[one] != sites[other]:
+            return None
+        found = fin(self, rows, (one, other))
+        self._put(room, 0, rows[0])  # where points were settled in between
+        if found is None or not self.holds(found[1][-1]):
+            return None
+        kept, ahead = found
+        for state in ahead:
+            self._put(room, kept, state)
+            kept += 1
+        return kept, ahead[-1]
 
     def _pair(self, state: State) -> tuple[int, int]:
         """The two contacts with the nearest feet."""

@@ -35,7 +35,10 @@ from decomp.tracing.compiled import scalar
 from decomp.vectors import Array, Ints
 
 FACE, LINE, CIRCLE, CURVE, POINT, NOTHING = range(6)
-FOOT_STEPS = 20
+LEAST_BEND, LONGEST_STEP = 1e-5, 0.25
+"""Close to a centre of curvature Newton's steps along an edge, which grow without bound there, are
+divided by no less than this, and are no longer than this part of the distance."""
+FOOT_STEPS = 60
 
 Field = tuple[float, float, float, float, float, float, float]
 
@@ -246,7 +249,9 @@ def curve_foot(
         square = max(sine * sine, 1e-12)
         ka, kb = (ha - cosine * hb) / square, (hb - cosine * ha) / square
         bent = ka * (vx * nx + vy * ny + vz * nz) + kb * (vx * mx + vy * my + vz * mz)
-        along = (vx * tx + vy * ty + vz * tz) / max(1.0 - bent, 0.05)
+        along = (vx * tx + vy * ty + vz * tz) / max(1.0 - bent, LEAST_BEND)
+        limit = LONGEST_STEP * sqrt(vx * vx + vy * vy + vz * vz)
+        along = min(max(along, -limit), limit)
         # the step across the curve solves n.s = da, m.s = db in the plane of n and m
         square = sine * sine
         ca, cb = (da - cosine * db) / square, (db - cosine * da) / square

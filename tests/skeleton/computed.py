@@ -18,7 +18,6 @@ from decomp.csg.solid import Solid
 from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
 from decomp.vectors import Array
 from tests.corpus.files import FILES
-from tests.laws.effort import FACTOR
 from tests.skeleton.shapes import SHAPES
 from tests.solids import SOLIDS
 
@@ -39,14 +38,10 @@ LONG = {
     "netgen/manyholes2.geo",
     "netgen/matrix.geo",
     "netgen/trafo.geo",
-    "ngsolve/arperture.geo",
-    "ngsolve/coil.geo",
-    "ngsolve/coilshield.geo",
 }
-"""Models that take minutes; they are left out unless LAWS asks for more effort."""
+"""Models that take half a minute and more."""
 
 UNFINISHED = {
-    "netgen/period.geo": "curves cross in a footprint",
     "netgen/twocyl.geo": "an edge's sheet with itself that has no plane of symmetry",
 }
 """Models whose skeleton cannot be computed yet, and why."""
@@ -58,8 +53,6 @@ def param(name: str, *values: object) -> pytest.ParameterSet:
     if name in UNFINISHED:
         reason = UNFINISHED[name]
         marks.append(pytest.mark.xfail(strict=False, run="in time" not in reason, reason=reason))
-    if name in LONG:
-        marks.append(pytest.mark.skipif(FACTOR <= 1, reason="takes minutes; set LAWS=2"))
     if name in SLOW | LONG:
         marks.append(pytest.mark.slow)
     return pytest.param(name, *values, marks=marks)

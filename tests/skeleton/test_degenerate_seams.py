@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
+from math import sqrt
 
 import numpy as np
 import pytest
 
 import decomp
+from decomp import Cylinder
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.graph import SeamGraph, missed_seams, seam_graph
 from decomp.vectors import norm
@@ -71,6 +73,26 @@ def test_fins_end_below_the_corners_of_a_boss() -> None:
     for node in fins:
         assert np.abs(np.abs(node.point[:2] - 2) - 1).max() <= 1e-14 * geometry.diagonal
         assert node.point[2] == pytest.approx(0.5, abs=1e-14)
+
+
+def test_fins_end_where_an_edge_is_osculated() -> None:
+    """A rod across a column, near the floor: the sheet of their edge with itself ends in fins.
+
+    Its two feet run together at the rod's lowest line, in a centre of curvature of the edge, and at
+    its highest, on the column's axis, where a whole circle of the column is as near.
+    """
+    column = Cylinder((0, 0, 0), (0, 0, 1), 0.3, name="column")
+    rod = Cylinder((-0.5, 0, 0.2), (0.5, 0, 0.2), 0.1, name="rod")
+    _, graph = graph_of(column | rod)
+    assert len(graph.seams) == 2
+    # a / 0.3 + b / 0.1 = 1 in the plane of curvature, and the floor as far: (b + 0.1)^2 = a^2 + b^2
+    a = (sqrt(1 / 225 + 0.12) - 1 / 15) / 2
+    b = 0.1 * (1 - a / 0.3)
+    expected = [(a - 0.3, 0, b + 0.1), (0, 0, 0.3), (0.3 - a, 0, b + 0.1)]
+    fins = sorted(tuple(node.point) for node in graph.nodes)
+    assert fins == [pytest.approx(p, abs=1e-10) for p in expected]
+    for seam in graph.seams:
+        assert (np.diff(seam.points[:, 2]) < 0).all() or (np.diff(seam.points[:, 2]) > 0).all()
 
 
 @pytest.mark.parametrize("name", ["bracket", "blind hole", "fichera", "countersink", "slot"])

@@ -5,6 +5,7 @@ Areas of curved sheets are those of chords, so they fall short a little.
 
 from __future__ import annotations
 
+from collections import Counter
 from math import acos, pi, sqrt, tan
 
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.optimize import brentq
 
 from decomp.complex.model import LineKind
 from decomp.medial.result import Parity
+from tests.corpus.files import FILES
 from tests.skeleton.computed import region_of, unfinished
 
 CURVED = 2e-3
@@ -397,3 +399,19 @@ def test_thin_wall() -> None:
     edge = "slit.xmin|slit.ymin"
     x, y, _ = block.on_sheets("block.xmin", edge).T
     assert np.hypot(x - 0.01, y - 1) == pytest.approx(x, abs=1e-12)
+
+
+@pytest.mark.skipif("netgen/shaft.geo" not in FILES, reason="Netgen's models are not here")
+def test_crankshaft_has_a_closed_curve_of_seams_in_each_web() -> None:
+    """Each web's outline has two arcs, two lines and four reentrant edges between them."""
+    shaft = region_of("netgen/shaft.geo")
+    assert len(shaft.parts.seams) == 4 * 8
+    lines = [shaft.skeleton.complex.lines[seam.line].vertices for seam in shaft.parts.seams]
+    along = [shaft.points[line][:, 0] for line in lines]
+    webs = Counter(round(float(x.mean()), 9) for x in along)
+    assert webs == {5: 8, 40: 8, 85: 8, 120: 8}
+    assert max(float(np.ptp(x)) for x in along) <= 1e-12 * shaft.skeleton.diagonal
+    ends = Counter(int(end) for line in lines for end in line[[0, -1]])
+    assert set(ends.values()) == {2}
+    assert {len(seam.sheets) for seam in shaft.parts.seams} == {3}
+    assert not shaft.parts.junctions

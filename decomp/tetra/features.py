@@ -1,0 +1,104 @@
+"""The smallest features of a model, from which TetWild's epsilon is taken."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.complex.model import LineKind
+from decomp.geometry import Geometry
+from decomp.tetra.layout import samples
+from decomp.tetra.surface import MeshSurface
+from decomp.vectors import Array, dot
+
+FACING = -0.5
+"""Feet face each other where the cosine between their directions is below this."""
+SAMPLED = 12.0
+"""Features are looked for at points this part of a region's diagonal apart."""
+USUAL = 2e-3
+"""Epsilon relative to the smallest region's diagonal, where nothing asks for less."""
+OF_THICKNESS, OF_EDGE = 0.1, 0.12
+"""Epsilon is at most these parts of the least thickness or gap, and of the shortest edge."""
+LEAST = 1e-5
+"""Epsilon is at least this part of the model's diagonal."""
+
+
+def usual_epsilon(geometry: Geometry) -> float:
+    """Epsilon as far as it is known without the skeleton."""
+    epsilon = USUAL * min(region.diagonal for region in geometry.regions)
+    edges = [edge.length for region in geometry.regions for edge in region.edges]
+    return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
+
+
+def fitting_epsilon(geometry: Geometry, surface: MeshSurface, epsilon: float) -> float:
+    """An epsilon, no larger than a given one, that thin walls and narrow gaps allow."""
+    numbers = range(len(surface.regions))
+    thin = min(least_thickness(geometry, surface, number) for number in numbers)
+    epsilon = min(epsilon, OF_THICKNESS * thin)
+    while epsilon > LEAST * geometry.diagonal and has_gap(
+        geometry, surface, epsilon / OF_THICKNESS
+    ):
+        epsilon /= 2
+    return max(epsilon, LEAST * geometry.diagonal)
+
+
+def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
+    """Whether boundaries face each other across the outside, less than a width apart."""
+    mesh = surface.complex
+    for region in surface.regions:
+        for sides in region.face_sides:
+            for patch, sign in sides:
+                own = mesh.patches[patch]
+                some, _ = samples(
+                    mesh.points, own.triangles, max(region.boundary.diagonal / SAMPLED, width)
+                )
+                some = own.surface.place(some)
+                out = sign * own.surface.normal(some)
+                asked = some + width / 2 * out
+                found = geometry.index.nearest(asked)
+                near = (found.region < 0) & (found.distance < 0.45 * width)
+                way = (found.foot - asked)[near] / np.maximum(found.distance[near], 1e-300)[:, None]
+                if (dot(way, out[near]) > -FACING).any():
+                    return True
+    return False
+
+
+def thickness(
+    geometry: Geometry, surface: MeshSurface, number: int, largest: float
+) -> tuple[Array, Array]:
+    """Points of the skeleton and their feet where the feet face each other, with thicknesses."""
+    region = surface.regions[number]
+    mesh = surface.complex
+    points, thick = [], []
+    for patch in region.sheets:
+        own = mesh.patches[patch]
+        some, _ = samples(mesh.points, own.triangles, largest / 2)
+        some = own.surface.place(some)
+        way = own.surface.normal(some) * (1e-6 * geometry.diagonal)
+        one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
+        good = (one.region == number) & (two.region == number) & (one.distance > 0)
+        good &= two.distance > 0
+        u = (one.foot - some) / np.maximum(one.distance, 1e-300)[:, None]
+        v = (two.foot - some) / np.maximum(two.distance, 1e-300)[:, None]
+        rows = good & (dot(u, v) < FACING)
+        for each in (some[rows], one.foot[rows], two.foot[rows]):
+            points.append(each)
+            thick.append(2 * one.distance[rows])
+    for line in mesh.lines:
+        if line.kind is LineKind.REFLEXIVE:
+            some = mesh.points[line.vertices]
+            found = geometry.index.nearest(some)
+            rows = (found.region == number) & (found.distance > 0)
+            for each in (some[rows], found.foot[rows]):
+                points.append(each)
+                thick.append(2 * found.distance[rows])
+    return (
+        np.concatenate([np.empty((0, 3)), *points]),
+        np.concatenate([np.empty(0), *thick]),
+    )
+
+
+def least_thickness(geometry: Geometry, surface: MeshSurface, region: int) -> float:
+    """The least local thickness of a region, infinite where no feet face each other."""
+    length = surface.regions[region].boundary.diagonal / SAMPLED
+    thick = thickness(geometry, surface, region, length)[1]
+    return float(thick.min(initial=np.inf))

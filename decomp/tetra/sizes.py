@@ -1,0 +1,172 @@
+"""How long edges should be, and where: wishes at points, joined into one field.
+
+A wish is a length at a point. Away from it lengths may grow by a fixed slope, and the least of all
+that follows counts, so that neighbouring tetrahedra never differ much.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.carriers import Carrier
+from decomp.errors import InputError
+from decomp.geometry import Geometry
+from decomp.tetra.features import thickness
+from decomp.tetra.groups import option_number
+from decomp.tetra.layout import samples
+from decomp.tetra.surface import MeshSurface
+from decomp.vectors import Array, cross, norm
+
+PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
+"""By default edges are at most this part of the model's, or of their region's, diagonal."""
+VOLUME, ASKED = 4.2e-3, 2.1e-3
+"""Where edges of the wanted length would change a region's volume by more than the first part of
+it, they are made so short that it is the second: TetWild leaves edges up to 4/3 as long."""
+SLOPE = 0.35
+"""How much longer edges may get for each unit of way."""
+LEAST = 1 / 12
+"""Curvature alone makes edges no shorter than this part of the largest."""
+STEP = 1.25
+"""Wishes are joined in classes of lengths that differ by this factor."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What the user asks for.
+
+    Args:
+        size: largest edge length, in model units.
+        layers: elements across thin parts.
+        per_circle: edges around a full circle.
+
+    Raises:
+        InputError: one is out of its range.
+    """
+
+    size: float | None = None
+    layers: int | None = None
+    per_circle: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.size is not None and not 0 < self.size < float("inf"):
+            raise InputError(f"size must be a positive length, got {self.size!r}")
+        if self.layers is not None and not 1 <= self.layers <= 100:
+            raise InputError(f"layers must be from 1 to 100, got {self.layers!r}")
+        if self.per_circle is not None and not 3 <= self.per_circle <= 10000:
+            raise InputError(f"elements per circle must be from 3, got {self.per_circle!r}")
+
+
+@dataclass(frozen=True, eq=False)
+class Wishes:
+    """Lengths (n,) wanted at points (n, 3)."""
+
+    points: Array
+    lengths: Array
+
+    def at(self, places: Array, blur: Array | float = 0.0) -> Array:
+        """The field (k,) at places (k, 3): the least of all wishes, grown with the distance.
+
+        Args:
+            places: (k, 3).
+            blur: (k,) distances to which lengths do not grow.
+        """
+        found = np.full(len(places), np.inf)
+        least = float(self.lengths.min())
+        classes = np.floor(np.log(self.lengths / least) / np.log(STEP)).astype(np.int64)
+        for number in np.unique(classes).tolist():
+            rows = classes == number
+            length = least * STEP**number
+            gap = np.maximum(cKDTree(self.points[rows]).query(places)[0] - blur, 0)
+            found = np.minimum(found, length + SLOPE * gap)
+        return found
+
+
+def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
+    """The largest edge length in each region: the user's, the file's `maxh`, or a default."""
+    found = []
+    for boundary, region in zip(geometry.regions, geometry.model.regions, strict=True):
+        default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)
+        length = default if wanted.size is None else wanted.size
+        given = option_number(region.options, "maxh")
+        if given is not None and given <= 0:
+            raise InputError(f"maxh of region {region.name} must be positive, got {given}")
+        found.append(length if given is None else min(length, given))
+    return np.array(found)
+
+
+def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
+    """All wishes: regions' sizes, curved faces, faces' `maxh`, and layers across thin parts."""
+    largest = region_sizes(geometry, wanted)
+    mesh = surface.complex
+    points, lengths = [], []
+    for number, region in enumerate(surface.regions):
+        length = float(largest[number])
+        patches = [p for sides in region.face_sides for p, _ in sides] + list(region.sheets)
+        triangles = np.concatenate([mesh.patches[p].triangles for p in patches])
+        some, _ = samples(mesh.points, triangles, length)
+        points.append(some)
+        lengths.append(np.full(len(some), length))
+        for some, own in _curved(geometry, surface, number, length, wanted):
+            points.append(some)
+            lengths.append(own)
+        if wanted.layers is not None:
+            some, thick = thickness(geometry, surface, number, length)
+            points.append(some)
+            lengths.append(np.minimum(thick / wanted.layers, length))
+    return Wishes(np.concatenate(points), np.concatenate(lengths))
+
+
+def _curved(
+    geometry: Geometry, surface: MeshSurface, number: int, largest: float, wanted: Wanted
+) -> list[tuple[Array, Array]]:
+    """Wishes on the curved faces of a region and on faces with a `maxh`."""
+    region = surface.regions[number]
+    mesh = surface.complex
+    found = []
+    change = 0.0
+    for face, sides in zip(region.boundary.faces, region.face_sides, strict=True):
+        triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
+        some, which = samples(mesh.points, triangles, largest)
+        corners = mesh.points[triangles]
+        area = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])) / 2
+        low, high = curvatures(region.boundary.carriers[face.carrier], some)
+        bend = np.maximum(np.abs(low), np.abs(high))
+        own = np.full(len(some), largest)
+        if wanted.per_circle is not None:
+            own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, 1e-300))
+        own = np.maximum(own, LEAST * largest)
+        share = (area / np.bincount(which, minlength=len(area)))[which]
+        change += face.outward * float((share * own**2 * (low + high)).sum()) / 16
+        limit = option_number(face.options, "maxh")
+        if limit is not None and limit > 0:
+            own = np.minimum(own, limit)
+        found.append((some, own, bend))
+    change = abs(change / region.boundary.volume)
+    free = wanted.size is None and wanted.per_circle is None
+    shrunk = sqrt(ASKED / change) if free and change > VOLUME else 1.0
+    return [
+        (some, np.where(bend > 1e-12 / largest, shrunk * own, own)) for some, own, bend in found
+    ]
+
+
+def curvatures(carrier: Carrier, points: Array) -> tuple[Array, Array]:
+    """The two principal curvatures (n,) of a carrier near points (n, 3), the lower first.
+
+    From the curvatures along four directions, which follow Euler's formula
+    k(t) = mean + half the difference times cos 2(t - t0).
+    """
+    q = carrier.foot(points)
+    normal = carrier.normal(q)
+    axis = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
+    first = cross(normal, axis)
+    first /= norm(first)[:, None]
+    second = cross(normal, first)
+    slant = (first + second) / sqrt(2), (first - second) / sqrt(2)
+    along = [carrier.normal_curvature(q, way) for way in (first, second, *slant)]
+    mean = (along[0] + along[1]) / 2
+    half = np.hypot((along[0] - along[1]) / 2, (along[2] - along[3]) / 2)
+    return np.asarray(mean - half), np.asarray(mean + half)
