@@ -37,14 +37,16 @@ class RuledSurface:
     sense: float
     s: Array
     height: Array
-    _known: tuple[cKDTree, Array, Array, Array] = field(init=False)
+    _tree: cKDTree = field(init=False)
+    _feet: Array = field(init=False)
+    _ways: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        s = np.tile(self.s, len(RUNGS))
-        up = np.concatenate([rung * self.height for rung in RUNGS])
-        feet, ways = self.curve.feet(s), self.curve.directions(s)
-        known = (cKDTree(feet + up[:, None] * ways), s, feet, ways)
-        object.__setattr__(self, "_known", known)
+        feet, ways = self.curve.feet(self.s), self.curve.directions(self.s)
+        known = [feet + (rung * self.height)[:, None] * ways for rung in RUNGS]
+        object.__setattr__(self, "_tree", cKDTree(np.concatenate(known)))
+        object.__setattr__(self, "_feet", feet)
+        object.__setattr__(self, "_ways", ways)
 
     def place(self, points: Array) -> Array:
         """Points (k, 3) moved to the normal through their foot."""
@@ -65,12 +67,11 @@ class RuledSurface:
         Close to where normals of several parts of the edge meet, the closest known point may be
         on a normal of another part.
         """
-        tree, s, feet, ways = self._known
-        rows = tree.query(points, k=min(CLOSE, len(s)))[1]
-        away = points[:, None] - feet[rows]
-        across = away - dot(away, ways[rows])[..., None] * ways[rows]
-        best = np.argmin(dot(across, across), axis=1)
-        return np.asarray(s[rows[np.arange(len(points)), best]])
+        rows = self._tree.query(points, k=min(CLOSE, self._tree.n))[1] % len(self.s)
+        away = points[:, None] - self._feet[rows]
+        up = np.clip(dot(away, self._ways[rows]), 0.0, self.height[rows])
+        off = norm(away - up[..., None] * self._ways[rows])
+        return np.asarray(self.s[rows[np.arange(len(points)), np.argmin(off, axis=1)]])
 
 
 def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
