@@ -17,21 +17,28 @@ import numpy as np
 from decomp.complex.refine_elements import Elements
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
+from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
 from decomp.tetra.child import EDGE_IN_EPSILONS, Settings, tetrahedralized
 from decomp.tetra.classify import classified, region_of
+from decomp.tetra.faces import faces_of
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.project import Projector
+from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
+from decomp.tetra.splitting import freed
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
+
+CHORD = 0.75
+"""How far triangles may be off their surfaces, in parts of epsilon."""
 
 Progress = Callable[[str, float], None]
 
@@ -71,6 +78,13 @@ def mesh(
     """
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
+    for value, allowed, what in (
+        (order, (1, 2), "order"),
+        (cells, ("skeleton", "face"), "cells"),
+        (volumes, ("cells", "regions"), "volumes"),
+    ):
+        if value not in allowed:
+            raise InputError(f"{what} must be one of {allowed}, got {value!r}")
     wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
     made, epsilon = _surface(geometry, maker, cells == "face")
@@ -84,48 +98,52 @@ def mesh(
     known = cell_map(made)
     plan = layout(made, known)
     tell("TetWild", 0.4)
-    raw = tetrahedralized(*_soup(plan.complex.points, plan.triangles), settings, field, timeout)
+    raw = tetrahedralized(*_used(plan.complex.points, plan.triangles), settings, field, timeout)
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
-    label, faces = classified(geometry, known, raw.points, raw.tets, epsilon)
-    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(raw.points, label, faces)
-    groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
+    label = classified(geometry, known, raw.points, raw.tets, epsilon)
+    points, tets = _used(raw.points, raw.tets[label >= 0])
+    points, tets, label = freed(points, tets, label[label >= 0], known.region)
+    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(points, label, faces_of(tets))
     tell("projecting", 0.85)
     elements = Elements(plan.complex)
-    targets = Finder(geometry, made, known, plan, elements, epsilon).targets(raw.points, tagged)
-    inside = label >= 0
-    moved = Projector(
-        raw.points, raw.tets[inside], targets, elements, plan.complex.points
-    ).projected()
+    finder = Finder(geometry, made, known, plan, elements, epsilon)
+    corners = plan.complex.points
+    moved = Projector(points, tets, finder.targets(points, tagged), elements, corners).projected()
+    points, triangles, left = moved.points, tagged.triangles, moved.left
+    if order == 2:
+        tell("curving", 0.95)
+        curved = quadratic(points, tets, tagged, finder, elements, corners)
+        points, tets, triangles = curved.points, curved.tets, curved.triangles
+        left = np.concatenate([left, curved.left])
+    groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
     if volumes == "cells":
-        solid, tet_tags = cell_groups(geometry, known), label[inside] + 1
+        solid, tet_tags = cell_groups(geometry, known), label + 1
     else:
-        solid, tet_tags = region_groups(geometry), region_of(label[inside], known) + 1
-    tets, triangles = raw.tets[inside], tagged.triangles[tags > 0]
-    used = np.unique(tets)
+        solid, tet_tags = region_groups(geometry), region_of(label, known) + 1
     return TetMesh(
         geometry.model.name,
-        moved.points[used],
-        np.searchsorted(used, tets),
+        points,
+        tets,
         tet_tags,
-        np.searchsorted(used, triangles),
+        triangles[tags > 0],
         tags[tags > 0],
         (*solid, *groups),
-        np.searchsorted(used, moved.left),
+        left,
     )
 
 
 def _surface(geometry: Geometry, maker: SurfaceMaker, by_face: bool) -> tuple[MeshSurface, float]:
     """The complex, and the epsilon that it is fine enough for."""
     epsilon = usual_epsilon(geometry)
-    made = maker.made(epsilon / 2, by_face)
+    made = maker.made(CHORD * epsilon, by_face)
     fitting = fitting_epsilon(geometry, made, epsilon)
     if fitting < 0.99 * epsilon:
-        made = maker.made(fitting / 2, by_face)
+        made = maker.made(CHORD * fitting, by_face)
     return made, fitting
 
 
-def _soup(points: Array, triangles: Ints) -> tuple[Array, Ints]:
-    """The points that triangles use, and the triangles renumbered."""
-    used = np.unique(triangles)
-    return points[used], np.searchsorted(used, triangles)
+def _used(points: Array, cells: Ints) -> tuple[Array, Ints]:
+    """The points that triangles or tetrahedra use, and these renumbered."""
+    used = np.unique(cells)
+    return points[used], np.searchsorted(used, cells)

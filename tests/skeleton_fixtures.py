@@ -9,7 +9,7 @@ import numpy as np
 
 import decomp
 from decomp.carriers import Carrier
-from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
+from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, Line, LineKind, Patch, PatchKind
 from decomp.curves.circle import Circle
@@ -22,6 +22,7 @@ from decomp.medial.result import (
     Sheet,
     Skeleton,
     SkeletonLine,
+    TrimSurface,
 )
 from decomp.vectors import Array, Ints, dot, norm
 

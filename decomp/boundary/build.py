@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,23 +9,18 @@ import numpy as np
 
 from decomp.boundary import checks
 from decomp.boundary.arcs import Arrangement, arrange
-from decomp.boundary.bounds import region_bounds
+from decomp.boundary.assembled import assembled
 from decomp.boundary.edges import RawEdge, raw_edges
 from decomp.boundary.faces import RawFace, face_at, raw_faces
-from decomp.boundary.integrals import FaceIntegrals, Track, face_integrals, tracks
 from decomp.boundary.loops import LoopSet, loop_sets
 from decomp.boundary.member import Member
-from decomp.boundary.naming import face_names
-from decomp.boundary.rays import Walker
-from decomp.boundary.topology import Convexity, Edge, Face, RegionBoundary, Vertex
-from decomp.boundary.torus_loops import genus, winding
+from decomp.boundary.topology import RegionBoundary
 from decomp.boundary.touching import touching_regions
 from decomp.boundary.wedges import Star, stars
-from decomp.carriers import Cone, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import Model
-from decomp.errors import EmptyRegionError, GeometryError, UnboundedRegionError
-from decomp.vectors import Array, Ints, frame, norm, place
+from decomp.errors import EmptyRegionError, UnboundedRegionError
+from decomp.vectors import Array, Ints, norm
 
 WINDOWS = (2.0, 2e4)
 """Radii, in units of the estimated scale, within which a model is looked for."""
@@ -159,229 +153,8 @@ def _build(arrangement: Arrangement, surroundings: list[Star], member: Member) -
         )
     for contact in arrangement.contacts:
         checks.refuse_point_contact(arrangement, contact, member)
-    quadrature = [tracks(edge) for edge in edges]
-    boundary = _boundary(form, member, edges, points, sets, faces, quadrature, arrangement.radius)
+    boundary = assembled(form, member, edges, points, sets, faces, arrangement.radius)
     return _Source(arrangement, surroundings, member, edges, sets, faces, boundary)
-
-
-def _boundary(
-    form: HalfSpaceForm,
-    member: Member,
-    edges: Sequence[RawEdge],
-    points: Array,
-    sets: Sequence[LoopSet],
-    raw: Sequence[RawFace],
-    quadrature: Sequence[tuple[Track, Track]],
-    reach: float,
-) -> RegionBoundary:
-    poles = _poles(form, member, edges, sets, reach)
-    fine, coarse = (
-        [
-            face_integrals(
-                face,
-                form.carriers[face.carrier],
-                edges,
-                lambda k, level=level: quadrature[k][level],  # type: ignore[misc]
-                form.centre,
-                poles.get((face.carrier, face.outward)),
-            )
-            for face in raw
-        ]
-        for level in (0, 1)
-    )
-    _refuse_broken(form, member, raw, fine)
-    names = face_names(raw, [_probes(face, edges, form, member) for face in raw], member)
-    faces = tuple(
-        Face(
-            name,
-            face.carrier,
-            face.outward,
-            integral.area,
-            tuple(tuple((h.edge, h.direction) for h in loop) for loop in face.loops),
-            options,
-            face.point,
-        )
-        for face, integral, (name, options) in zip(raw, fine, names, strict=True)
-    )
-    finished = _edges(edges, raw, quadrature)
-    vertices = _vertices(points, finished) + _apexes(form, member, raw, points)
-    area = sum(i.area for i in fine)
-    volume = sum(i.flux for i in fine) / 3
-    rounding = 1e-14 * area * form.scale
-    return RegionBoundary(
-        member.name,
-        form.carriers,
-        faces,
-        finished,
-        vertices,
-        volume,
-        abs(volume - sum(i.flux for i in coarse) / 3) + rounding,
-        area,
-        sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
-        region_bounds(form, member, raw, finished, vertices),
-        _euler(form, member, edges, points, raw),
-    )
-
-
-def _refuse_broken(
-    form: HalfSpaceForm, member: Member, raw: Sequence[RawFace], integrals: Sequence[FaceIntegrals]
-) -> None:
-    """Raise GeometryError where loops were not joined to the right faces: a hole has area < 0."""
-    for face, integral in zip(raw, integrals, strict=True):
-        if integral.area <= 0:
-            raise GeometryError(
-                f"region {member.name!r}: the loops on {form.carrier_name(face.carrier)} near "
-                f"{place(face.point)} could not be joined to faces"
-            )
-
-
-def _poles(
-    form: HalfSpaceForm,
-    member: Member,
-    edges: Sequence[RawEdge],
-    sets: Sequence[LoopSet],
-    reach: float,
-) -> dict[tuple[int, int], Array]:
-    """For each sphere with edges the direction from its centre that keeps farthest from them."""
-    return {
-        (s.carrier, s.outward): Walker(member, edges, s, reach).clearest_direction
-        for s in sets
-        if isinstance(form.carriers[s.carrier], Sphere)
-    }
-
-
-def _probes(face: RawFace, edges: Sequence[RawEdge], form: HalfSpaceForm, member: Member) -> Array:
-    """Points inside a face: its interior point, and some close to its edges."""
-    carrier = form.carriers[face.carrier]
-    near = []
-    for half in [h for loop in face.loops for h in loop][:16]:
-        edge = edges[half.edge]
-        flank = next(
-            f
-            for f in edge.flanks
-            if f.carrier == face.carrier and f.direction_of_loop == half.direction
-        )
-        near.append(edge.point + 1e-4 * form.scale * flank.direction)
-    if not near:
-        return face.point[None, :]
-    candidates = carrier.project(np.array(near))
-    inside = member.is_face(face.carrier, face.outward, candidates)
-    return np.concatenate([face.point[None, :], candidates[inside]])
-
-
-def _edges(
-    edges: Sequence[RawEdge], raw: Sequence[RawFace], quadrature: Sequence[tuple[Track, Track]]
-) -> tuple[Edge, ...]:
-    face_of = {
-        (half.edge, half.direction): index
-        for index, face in enumerate(raw)
-        for loop in face.loops
-        for half in loop
-    }
-    result = []
-    for index, edge in enumerate(edges):
-        first, second = edge.flanks
-        result.append(
-            Edge(
-                edge.curve,
-                edge.start,
-                edge.end,
-                (
-                    face_of[index, first.direction_of_loop],
-                    face_of[index, second.direction_of_loop],
-                ),
-                (first.carrier, second.carrier),
-                edge.ends,
-                edge.convexity,
-                quadrature[index][0].length,
-                edge.samples(),
-            )
-        )
-    return tuple(result)
-
-
-def _vertices(points: Array, edges: Sequence[Edge]) -> tuple[Vertex, ...]:
-    at: list[list[int]] = [[] for _ in points]
-    for index, edge in enumerate(edges):
-        for end in set(edge.vertices or ()):
-            at[end].append(index)
-    result = []
-    for point, incident in zip(points, at, strict=True):
-        kinds = {edges[k].convexity for k in incident} - {Convexity.SMOOTH}
-        if not kinds:
-            convexity = Convexity.SMOOTH
-        else:
-            convexity = kinds.pop() if len(kinds) == 1 else Convexity.SADDLE
-        faces = sorted({f for k in incident for f in edges[k].faces})
-        result.append(Vertex(point, tuple(faces), tuple(incident), convexity))
-    return tuple(result)
-
-
-def _apexes(
-    form: HalfSpaceForm, member: Member, raw: Sequence[RawFace], points: Array
-) -> tuple[Vertex, ...]:
-    """The apexes of cones that lie inside a face."""
-    result = []
-    for index, cone in enumerate(form.carriers):
-        if not isinstance(cone, Cone):
-            continue
-        if len(points) and norm(points - cone.apex).min() <= 10 * form.tolerance:
-            continue
-        ring = _around_apex(cone, 1e-5 * form.scale)
-        for outward in (1, -1):
-            if member.is_face(index, outward, ring).all():
-                here = [k for k, f in enumerate(raw) if (f.carrier, f.outward) == (index, outward)]
-                convexity = Convexity.CONVEX if outward > 0 else Convexity.REENTRANT
-                face = _apex_face(here, raw, cone, member)
-                result.append(Vertex(cone.apex, (face,), (), convexity))
-    return tuple(result)
-
-
-def _around_apex(cone: Cone, step: float) -> Array:
-    """Points of a cone a step down its rulings: at the apex itself other carriers may meet."""
-    x, y = frame(cone.axis)
-    angles = np.linspace(0.3, 0.3 + 2 * np.pi, 12, endpoint=False)[:, None]
-    side = np.cos(angles) * x + np.sin(angles) * y
-    return np.asarray(
-        cone.apex + step * (np.cos(cone.angle) * cone.axis + np.sin(cone.angle) * side)
-    )
-
-
-def _apex_face(here: Sequence[int], raw: Sequence[RawFace], cone: Cone, member: Member) -> int:
-    """Of the faces on a cone the one that reaches its apex: a way down a ruling stays inside."""
-    if len(here) == 1:
-        return here[0]
-    for k in here:
-        way = cone.apex + np.linspace(0.01, 1, 50)[:, None] * (raw[k].point - cone.apex)
-        if member.is_face(raw[k].carrier, raw[k].outward, way).all():
-            return k
-    raise GeometryError(
-        f"region {member.name!r}: no face of {member.form.carrier_name(raw[here[0]].carrier)} was "
-        f"found at its apex {place(cone.apex)}"
-    )
-
-
-def _euler(
-    form: HalfSpaceForm,
-    member: Member,
-    edges: Sequence[RawEdge],
-    points: Array,
-    raw: Sequence[RawFace],
-) -> int:
-    """Half the Euler characteristic of the boundary, which is that of the solid."""
-    total = len(points) - sum(edge.ends is not None for edge in edges)
-    for face in raw:
-        handles = 0
-        carrier = form.carriers[face.carrier]
-        if isinstance(carrier, Torus):
-            handles = genus([winding(carrier, edges, p, face.outward) for p in face.loops])
-        total += 2 - 2 * handles - len(face.loops)
-    if total % 2:
-        raise GeometryError(
-            f"region {member.name!r}: its boundary has the odd Euler characteristic {total}, so it "
-            "was not assembled correctly"
-        )
-    return total // 2
 
 
 def _flipped(boundary: RegionBoundary) -> RegionBoundary:

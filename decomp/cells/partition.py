@@ -9,7 +9,6 @@ surfaces, where the nearest point passes from one face to the next without a jum
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
@@ -17,24 +16,10 @@ from scipy.sparse.csgraph import connected_components  # type: ignore[import-unt
 from decomp.boundary.topology import RegionBoundary
 from decomp.cells.surface import volume
 from decomp.complex.model import Complex
-from decomp.medial.result import Cell, Sheet
+from decomp.medial.result import Cell, Sheet, TrimSurface
 
 NAMED_BY_FACES = 3
 """A cell with more faces is numbered instead."""
-
-
-@dataclass(frozen=True)
-class TrimSurface:
-    """A trim surface between the cells of two faces.
-
-    Args:
-        patch: index into the complex's patches.
-        faces: that own the space on the side away from the patch's normal, and on the side that
-            the normal points to; indices into the region's faces. They may be the same.
-    """
-
-    patch: int
-    faces: tuple[int, int]
 
 
 def face_cells(

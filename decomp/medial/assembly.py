@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from decomp.boundary.topology import Convexity
-from decomp.cells.partition import TrimSurface
 from decomp.complex.model import Line, LineKind, Patch
+from decomp.errors import GeometryError
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
+from decomp.medial.result import TrimSurface
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheet_surface import SheetSurface
@@ -19,11 +20,12 @@ from decomp.medial.sheets import SheetMaker, SheetPart
 from decomp.medial.trim_maker import BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
-from decomp.vectors import Array, Ints, norm
+from decomp.vectors import Array, Ints, norm, place
 
+AT_END = 1e-6
+"""Nodes nearer to the end of a reflexive locus than this part of the size are it."""
 ALONG_LOCI = 24
 """Chords at least along a reflexive curve to which trim surfaces lead."""
-
 
 TURN = 0.35
 """The most (radians) that normals turn from one sample of a trim to the next."""
@@ -214,8 +216,10 @@ class RegionAssembler:
                     continue
                 gaps = norm(curves.nodes - end)
                 number = int(np.argmin(gaps))
-                if gaps[number] > 1e-6 * self._size or nodes[number] < 0:
-                    continue
+                if gaps[number] > AT_END * self._size or nodes[number] < 0:
+                    raise GeometryError(
+                        f"the reflexive locus that ends at {place(end)} has no node"
+                    )
                 for site in part.sites:
                     pair = (min(site, other), max(site, other))
                     if nodes[number] not in found.setdefault(pair, []):

@@ -96,6 +96,20 @@ class Reflexive:
     closed: bool
 
 
+@dataclass(frozen=True)
+class TrimSurface:
+    """A trim surface between the cells of two faces.
+
+    Args:
+        patch: index into the complex's patches.
+        faces: that own the space on the side away from the patch's normal, and on the side that
+            the normal points to; indices into the region's faces. They may be the same.
+    """
+
+    patch: int
+    faces: tuple[int, int]
+
+
 @dataclass(frozen=True, eq=False)
 class Cell:
     """A part of a region bounded by boundary faces, sheets and (face cells only) trim surfaces.

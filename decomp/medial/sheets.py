@@ -11,12 +11,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import RegionBoundary
-from decomp.carriers import Sphere
-from decomp.carriers.reflexive import reflexive_gap
-from decomp.complex.domains import Domain, domain_of
+from decomp.complex.domains import Domain
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import (
     PLANE,
@@ -28,29 +24,23 @@ from decomp.complex.planar import (
 )
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
+from decomp.medial.sheet_domains import SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
-from decomp.medial.unrolled import unrolled
+from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
-from decomp.sites.site import SiteKind
-from decomp.tracing.balls import Balls, inscribed_balls
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Ints, cross, dot, norm, place
 
 TESTS = 7
 """Triangles of each component at which it is asked what it is."""
-RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 UNCLEAR = 0.1
 """A component with votes of more weight than this on either side is neither sheet nor none. Votes
 count by inradius: a sliver beside a border can lie on its wrong side."""
-OFF = 1e-6
 ROUNDS = 12
 FILL = 6
 """Points per period with which a domain that has too few is filled."""
 COARSE = 0.15
 """Triangles whose middles are farther from the sheet than this part of their longest side are
 divided before anything else, so that all are on the right side of the solid."""
-FLAT = 1e-10
-MERGED = 1e-9
-"""Points of a footprint nearer to each other than this part of the size have merged."""
 
 
 class CrossingError(GeometryError):
@@ -133,13 +123,10 @@ class SheetMaker:
         points: Array,
         add: Callable[[Array], int],
     ) -> None:
-        self._index, self._incidence, self._points = index, incidence, points
+        self._incidence, self._points = incidence, points
         self._add = add
-        self._size = incidence.boundary.diagonal
-
-    @property
-    def _boundary(self) -> RegionBoundary:
-        return self._incidence.boundary
+        self._tests = SheetTests(index, incidence)
+        self._domains = SheetDomains(incidence, self._tests)
 
     def sheets(
         self, pair: tuple[int, int], lines: Sequence[Ints], isolated: Sequence[int]
@@ -160,36 +147,12 @@ class SheetMaker:
         points = self._points[used]
         feet = self._incidence.feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
-        uv, domain, column = self._drawn(pair, points, feet, surface)
-        draft = _Draft(pair, used, points, uv, np.searchsorted(used, segments), domain, column)
+        drawing = self._domains.drawn(pair, points, feet, surface)
+        local = np.searchsorted(used, segments)
+        draft = _Draft(pair, used, points, drawing.uv, local, drawing.domain, drawing.column)
         self._check_crossings(draft)
         found, keep = self._triangulated(draft, surface)
         return self._parts(draft, surface, found, keep)
-
-    def _drawn(
-        self, pair: tuple[int, int], points: Array, feet: Array, surface: SheetSurface
-    ) -> tuple[Array, Domain | None, int]:
-        """Coordinates of the points, their domain and the site that it belongs to.
-
-        Sheets between edges and vertices are drawn in their plane if they have one; so are those
-        whose feet on both sites merge, for there the footprint has too little room.
-        """
-        flat = self._flat(pair, points)
-        faces = [self._incidence.sites[site].kind is SiteKind.FACE for site in pair]
-        if flat is not None and not any(faces):
-            return flat, None, 0
-        column = self._better(pair, points)
-        own, other = pair[column], pair[1 - column]
-        domain = self._domain(own, points, feet[:, column], surface)
-        domain = unrolled(
-            domain,
-            domain.to_plane(feet[:, column], points),
-            lambda at: self._touches(own, other, *domain.lift(at)),
-        )
-        uv = domain.to_plane(feet[:, column], points)
-        if flat is not None and len(cKDTree(uv).query_pairs(MERGED * self._size)):
-            return flat, None, 0
-        return uv, domain, column
 
     def _check_crossings(self, draft: _Draft) -> None:
         bad = crossings(draft.uv, draft.segments, draft.period)
@@ -233,10 +196,10 @@ class SheetMaker:
                 sides.append(start + (period or length) * (np.arange(count) + 0.5) / count)
             spots = np.array(np.meshgrid(*sides)).reshape(2, -1).T
         feet, inward = domain.lift(spots)
-        on = self._on(draft.pair[draft.column], feet, inward)
+        on = self._tests.on(draft.pair[draft.column], feet, inward)
         if not on.any():
             raise error
-        centres = self._balls(feet[on], inward[on]).centre
+        centres = self._tests.balls(feet[on], inward[on]).centre
         draft.add(spots[on], centres)
 
     def _add_where_coarse(self, draft: _Draft, found: Triangulation, keep: list[int]) -> bool:
@@ -248,7 +211,7 @@ class SheetMaker:
         corners = draft.points[found.triangles[rows]]
         sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
         feet, inward = domain.lift(found.centroids[rows])
-        balls = self._balls(feet, inward)
+        balls = self._tests.balls(feet, inward)
         off = norm(balls.centre - corners.mean(axis=1))
         coarse = off > COARSE * sides
         coarse &= balls.site == draft.pair[1 - draft.column]
@@ -281,82 +244,6 @@ class SheetMaker:
             parts.append(SheetPart(draft.pair, surface, numbers[oriented]))
         return parts
 
-    def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
-        """Plane coordinates of points that all lie in a plane."""
-        middle = points.mean(axis=0)
-        _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
-        if spread[-1] > FLAT * self._size * np.sqrt(len(points)):
-            return None
-        return np.asarray((points - middle) @ axes[:2].T)
-
-    def _rank(self, site: int) -> int:
-        it = self._incidence.sites[site]
-        if it.kind is SiteKind.FACE:
-            return RANKS[self._boundary.carriers[self._boundary.faces[it.index].carrier].kind]
-        return 6 if it.kind is SiteKind.EDGE else 7
-
-    def _better(self, pair: tuple[int, int], points: Array) -> int:
-        """Which site's footprint to use: simple carriers first, none whose locus is reached."""
-
-        def cost(column: int) -> int:
-            it = self._incidence.sites[pair[column]]
-            rank = self._rank(pair[column])
-            if it.kind is SiteKind.FACE:
-                face = self._boundary.faces[it.index]
-                carrier = self._boundary.carriers[face.carrier]
-                if reflexive_gap(carrier, face.outward, points).min() <= 1e-7 * self._size:
-                    rank += 10
-            return rank
-
-        return min((0, 1), key=cost)
-
-    def _domain(self, site: int, points: Array, feet: Array, surface: SheetSurface) -> Domain:
-        it = self._incidence.sites[site]
-        if it.kind is SiteKind.FACE and self._rank(site) == RANKS["sphere"]:
-            return domain_of(self._boundary, it, pole=self._pole(site, surface, feet))
-        if it.kind is SiteKind.EDGE:
-            return domain_of(self._boundary, it, reach=float(np.median(norm(points - feet))))
-        return domain_of(self._boundary, it)
-
-    def _pole(self, site: int, surface: SheetSurface, feet: Array) -> Array:
-        """A direction from a sphere's centre in which no sheet of the pair lies."""
-        face = self._boundary.faces[self._incidence.sites[site].index]
-        sphere = self._boundary.carriers[face.carrier]
-        assert isinstance(sphere, Sphere)
-        centre, radius = sphere.centre, sphere.radius
-        rng = np.random.default_rng(0)
-        ways = rng.normal(size=(2000, 3))
-        ways /= norm(ways)[:, None]
-        q = centre + radius * ways
-        clear = np.min(norm(q[:, None] - feet[None]), axis=1)
-        order = np.argsort(-clear)
-        other = surface.sites[1] if surface.sites[0] == site else surface.sites[0]
-        ok = ~self._touches(site, other, q[order], -face.outward * sphere.normal(q[order]))
-        if not ok.any():
-            raise GeometryError(f"the sheet around the sphere at {place(centre)} has no boundary")
-        return np.asarray(ways[order[int(np.argmax(ok))]])
-
-    def _on(self, site: int, feet: Array, inward: Array) -> Bools:
-        """Whether feet (k, 3) are on a site, as seen in directions into the region (k, 3)."""
-        step = OFF * self._size
-        near = self._index.nearest(feet + step * inward)
-        on = (near.region == self._incidence.region) & (np.abs(near.distance - step) < 1e-3 * step)
-        if self._incidence.sites[site].kind is SiteKind.FACE:
-            on &= near.site == site
-        return np.asarray(on)
-
-    def _balls(self, feet: Array, inward: Array) -> Balls:
-        region = self._incidence.region
-        return inscribed_balls(self._index, self._boundary, region, feet, inward)
-
-    def _touches(self, site: int, other: int, feet: Array, inward: Array) -> Bools:
-        """Whether feet (k, 3) are on a site and the maximal balls there touch another."""
-        result = np.zeros(len(feet), dtype=np.bool_)
-        rows = np.flatnonzero(self._on(site, feet, inward))
-        if len(rows):
-            result[rows] = self._balls(feet[rows], inward[rows]).site == other
-        return result
-
     def _kept(
         self,
         pair: tuple[int, int],
@@ -377,10 +264,10 @@ class SheetMaker:
             return []
         where = np.einsum("ij,ijk->ik", weights[rows], points[found.triangles[rows]])
         if domain is None:
-            yes = self._in_skeleton(pair, where, surface)
+            yes = self._tests.in_skeleton(pair, where, surface)
         else:
             feet, inward = domain.lift(np.einsum("ij,ijk->ik", weights[rows], found.corners[rows]))
-            yes = self._touches(pair[column], pair[1 - column], feet, inward)
+            yes = self._tests.touches(pair[column], pair[1 - column], feet, inward)
         owners = np.array(owner)
         kept = []
         for number in range(found.components):
@@ -395,22 +282,6 @@ class SheetMaker:
             if share > 0.5:
                 kept.append(number)
         return kept
-
-    def _in_skeleton(self, pair: tuple[int, int], near: Array, surface: SheetSurface) -> Bools:
-        """Whether points near the surface, moved onto it, have both sites as nearest ones."""
-        moved, good = surface.try_place(near)
-        found = self._index.nearest(moved)
-        which: Ints = np.tile(np.array(pair), (len(moved), 1))
-        feet = self._incidence.feet(pair, moved)
-        reach = norm(moved - feet[:, 0])
-        slack = 1e-9 * self._size
-        good = good & (found.region == self._incidence.region)
-        good &= found.distance >= reach - slack
-        for column in (0, 1):
-            toward = self._index.nearest(moved + 0.3 * (feet[:, column] - moved))
-            good &= np.abs(toward.distance - 0.7 * reach) <= slack
-            good &= toward.site == which[:, column]
-        return np.asarray(good)
 
     def _oriented(self, surface: SheetSurface, points: Array, triangles: Ints) -> Ints:
         corners = points[triangles]

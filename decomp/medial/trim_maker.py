@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.cells.partition import TrimSurface
 from decomp.complex.model import Line, LineKind, Patch, PatchKind
 from decomp.errors import GeometryError
 from decomp.medial.curve_elements import RayCurve
@@ -17,6 +16,7 @@ from decomp.medial.curves_of_region import LocusRun
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.medial.region_curves import RegionCurves
+from decomp.medial.result import TrimSurface
 from decomp.medial.trim_surfaces import RuledSurface, strip
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -46,12 +46,26 @@ class FaceFinder:
             if self._known[slot] == UNKNOWN:
                 self._known[slot] = self._only_face(int(slot), int(carriers[inside[k]]))
         faces[inside] = self._known[slots[inside]]
-        for carrier in np.unique(carriers[faces == SEVERAL]):
-            part = np.flatnonzero((faces == SEVERAL) & (carriers == carrier))
-            faces[part] = self._edges_on(int(carrier)).owners(feet[part])
-            part = part[faces[part] == SEVERAL]
-            if len(part):
-                faces[part] = self._lookup(self._region, int(carrier), feet[part])
+        left = np.flatnonzero(faces == SEVERAL)
+        faces[left] = self.by_edges(carriers[left], feet[left])
+        return faces
+
+    def by_edges(
+        self, carriers: Ints, feet: Array, neighbours: Sequence[int] = (NEIGHBOURS,)
+    ) -> Ints:
+        """Faces (n,) that hold feet (n, 3) on carriers (n,), by the nearest edges.
+
+        Args:
+            carriers: (n,).
+            feet: (n, 3).
+            neighbours: how many edges' parts are looked at, ever more until there is no doubt.
+        """
+        faces = np.full(len(feet), SEVERAL, dtype=np.int64)
+        for count in neighbours:
+            for carrier, rows in _groups(carriers, np.flatnonzero(faces == SEVERAL)):
+                faces[rows] = self._edges_on(carrier).owners(feet[rows], count)
+        for carrier, rows in _groups(carriers, np.flatnonzero(faces == SEVERAL)):
+            faces[rows] = self._lookup(self._region, carrier, feet[rows])
         return faces
 
     @cached_property
@@ -84,9 +98,12 @@ class _EdgeBalls:
         gaps = np.linalg.norm(self.centres.data[near] - centre, axis=1)
         return np.unique(self.faces[near[gaps <= radius + self.radii[near]]])
 
-    def owners(self, points: Array) -> Ints:
-        """The faces with the edges nearest to points (n, 3), SEVERAL where that is not certain."""
-        count = min(NEIGHBOURS, len(self.faces))
+    def owners(self, points: Array, count: int) -> Ints:
+        """The faces with the edges nearest to points (n, 3), SEVERAL where that is not certain.
+
+        That is told from the `count` nearest balls.
+        """
+        count = min(count, len(self.faces))
         gaps, near = self.centres.query(points, k=np.arange(1, count + 1))
         reach = gaps + self.radii[near]
         row, first = np.arange(len(points)), reach.argmin(axis=1)
@@ -96,6 +113,11 @@ class _EdgeBalls:
         if count < len(self.faces):
             certain &= gaps[:, -1] - self.radii.max() > bound
         return np.where(certain, owner, SEVERAL)
+
+
+def _groups(carriers: Ints, rows: Ints) -> list[tuple[int, Ints]]:
+    """Rows by their carriers."""
+    return [(int(k), rows[carriers[rows] == k]) for k in np.unique(carriers[rows])]
 
 
 def _edge_balls(boundary: RegionBoundary, carrier: int) -> _EdgeBalls:

@@ -44,8 +44,16 @@ class Nearest:
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
-    """All that is needed for the points of one region."""
+class RegionIndex:
+    """All that is needed for the points of one region.
+
+    Args:
+        boundary: of the region.
+        sites: as arrays.
+        candidates, boxes: from which the nearest are found.
+        finder: names faces, where a carrier has several.
+        first: the number of the region's first site in `SiteIndex.sites`.
+    """
 
     boundary: RegionBoundary
     sites: RegionSites
@@ -80,7 +88,7 @@ class SiteIndex:
         self._boundaries = tuple(boundaries)
         self._outside = outside
         self._face_at: FaceLookup = face_at or _no_lookup
-        self._parts: dict[int, _Part] = {}
+        self._parts: dict[int, RegionIndex] = {}
         self._laid_out: dict[int, RegionSites] = {}
 
     @cached_property
@@ -108,6 +116,21 @@ class SiteIndex:
     def boundary(self, region: int) -> RegionBoundary:
         """The boundary of a region, or of the outside (-1)."""
         return self._outer if region == OUTSIDE else self._boundaries[region]
+
+    def part(self, label: int) -> RegionIndex:
+        """What the queries of a region, or of the outside (-1), need; made once."""
+        if label not in self._parts:
+            boundary, sites = self.boundary(label), self._sites(label)
+            before = range(len(self._boundaries) if label == OUTSIDE else label)
+            self._parts[label] = RegionIndex(
+                boundary,
+                sites,
+                candidate_tree(self.occupancy, sites.table, label),
+                box_tree(sites.table),
+                FaceFinder(boundary, label, self.occupancy, self._face_at),
+                sum(self._sites(k).count for k in before),
+            )
+        return self._parts[label]
 
     def region_of(self, points: ArrayLike) -> Labels:
         """The region (n,) that holds each point (n, 3), -1 outside.
@@ -152,7 +175,7 @@ class SiteIndex:
 
     def _fill(self, label: int, points: Array, result: Nearest, block: slice) -> None:
         """Find the nearest sites of those points of a block that carry a label."""
-        part = self._part(label)
+        part = self.part(label)
         labels = result.region[block]
         found = np.empty(len(points), dtype=np.int64)
         slots = np.empty(len(points), dtype=np.int64)
@@ -188,20 +211,6 @@ class SiteIndex:
         if label not in self._laid_out:
             self._laid_out[label] = region_sites(self.boundary(label), self.occupancy.table)
         return self._laid_out[label]
-
-    def _part(self, label: int) -> _Part:
-        if label not in self._parts:
-            boundary, sites = self.boundary(label), self._sites(label)
-            before = range(len(self._boundaries) if label == OUTSIDE else label)
-            self._parts[label] = _Part(
-                boundary,
-                sites,
-                candidate_tree(self.occupancy, sites.table, label),
-                box_tree(sites.table),
-                FaceFinder(boundary, label, self.occupancy, self._face_at),
-                sum(self._sites(k).count for k in before),
-            )
-        return self._parts[label]
 
 
 def _checked(points: ArrayLike) -> Array:

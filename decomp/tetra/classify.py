@@ -28,14 +28,14 @@ OWN = 0.5
 
 def classified(
     geometry: Geometry, cells: CellMap, points: Array, tets: Ints, epsilon: float
-) -> tuple[Ints, Faces]:
-    """The cell (m,) of each tetrahedron (m, 4), OUTSIDE for none, and their triangles."""
+) -> Ints:
+    """The cell (m,) of each tetrahedron (m, 4), OUTSIDE for none."""
     votes = _votes(geometry, cells, points, tets)
     label = votes[:, 0].copy()
     doubt = (votes != label[:, None]).any(axis=1)
     faces = faces_of(tets)
     _follow(geometry, cells, points, tets, faces, votes, doubt, label, epsilon)
-    return label, faces
+    return label
 
 
 def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Ints:

@@ -6,6 +6,7 @@ import numpy as np
 
 from decomp.complex.model import LineKind
 from decomp.geometry import Geometry
+from decomp.tetra.cells import site_owners
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
 from decomp.vectors import Array, dot
@@ -65,11 +66,19 @@ def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
 def thickness(
     geometry: Geometry, surface: MeshSurface, number: int, largest: float
 ) -> tuple[Array, Array]:
-    """Points of the skeleton and their feet where the feet face each other, with thicknesses."""
+    """Points of the skeleton and their feet where the feet face each other, with thicknesses.
+
+    Sheets between faces that meet in an edge tell of the wedge there, not of a wall, and the tip of
+    a cone is a corner too: neither counts.
+    """
     region = surface.regions[number]
     mesh = surface.complex
+    owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
+    meeting = {frozenset(edge.faces) for edge in region.boundary.edges}
     points, thick = [], []
-    for patch in region.sheets:
+    for patch, sites in region.sheets.items():
+        if frozenset(owner[list(sites)].tolist()) in meeting:
+            continue
         own = mesh.patches[patch]
         some, _ = samples(mesh.points, own.triangles, largest / 2)
         some = own.surface.place(some)
@@ -87,7 +96,7 @@ def thickness(
         if line.kind is LineKind.REFLEXIVE:
             some = mesh.points[line.vertices]
             found = geometry.index.nearest(some)
-            rows = (found.region == number) & (found.distance > 0)
+            rows = (found.region == number) & (found.distance > found.distance.max() / 2)
             for each in (some[rows], found.foot[rows]):
                 points.append(each)
                 thick.append(2 * found.distance[rows])

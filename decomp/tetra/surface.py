@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
-from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
+from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.cells.surface import is_closed
 from decomp.complex.boundary import BoundaryMesh, boundary_mesh
 from decomp.complex.model import Complex, Patch, PatchKind
@@ -23,7 +23,7 @@ from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.medial.assembly import RegionAssembler, RegionParts
 from decomp.medial.region_curves import RegionCurves, region_curves
-from decomp.medial.result import Cell, Sheet
+from decomp.medial.result import Cell, Sheet, TrimSurface
 from decomp.medial.sheets import CrossingError, MissingCurveError
 from decomp.medial.trim_maker import BoundaryVertices, owners
 from decomp.sites.site import Site

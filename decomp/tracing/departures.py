@@ -14,7 +14,6 @@ them: a foot at a vertex can unfold into one on each of two edges.
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,10 +22,9 @@ from decomp.tracing.contacts import EXACT, Contacts
 from decomp.tracing.fields import support_fields
 from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
+from decomp.tracing.seam_points import SeamPoints
+from decomp.tracing.seam_states import State
 from decomp.vectors import Array, Ints, frame, norm, place
-
-if TYPE_CHECKING:
-    from decomp.tracing.seams import SeamTracer, State
 
 AHEAD = (1e-2, 1e-3, 1e-4, 1e-5, 3e-2, 1e-1)
 """How far ahead it is looked, as parts of the radius, in this order."""
@@ -40,7 +38,7 @@ ASIDE = 0.5
 
 
 def departures(
-    tracer: SeamTracer, point: Array, touching: Contacts, ray: SeamRay
+    points: SeamPoints, point: Array, touching: Contacts, ray: SeamRay
 ) -> list[tuple[tuple[int, ...], State]]:
     """The seams that leave along a ray: their contacts, in cyclic order, and a first point each.
 
@@ -50,27 +48,27 @@ def departures(
         GeometryError: they cannot be told apart.
     """
     for part in AHEAD:
-        found = _at(tracer, point, touching, ray, part * touching.radius)
+        found = _at(points, point, touching, ray, part * touching.radius)
         if found is not None:
             return found
     raise GeometryError(f"the seams that leave {place(point)} cannot be told apart")
 
 
 def _at(
-    tracer: SeamTracer, point: Array, touching: Contacts, ray: SeamRay, h: float
+    points: SeamPoints, point: Array, touching: Contacts, ray: SeamRay, h: float
 ) -> list[tuple[tuple[int, ...], State]] | None:
     """The same as seen a length h ahead, None if that is not conclusive."""
     ahead = point + h * ray.direction
-    local = _local(tracer, ahead, touching, ray, h)
+    local = _local(points, ahead, touching, ray, h)
     if local is None:
         return None
     contacts, feet, distance = local
-    apart = APART * tracer.size
+    apart = APART * points.size
     cells = _cells((ahead - feet) / distance[:, None], distance, ray.direction, apart)
     if len(cells) == 1 and len(cells[0][0]) > 3 and float(norm(cells[0][1])) <= ASIDE * h:
         # contacts that part at a higher order do so beside the point where the others meet
         beside = ahead + cells[0][1]
-        again = _local(tracer, beside, touching, ray, h)
+        again = _local(points, beside, touching, ray, h)
         if again is not None:
             ahead, (contacts, feet, distance) = beside, again
             cells = _cells((ahead - feet) / distance[:, None], distance, ray.direction, apart)
@@ -83,8 +81,8 @@ def _at(
                 continue
             return None
         start = ahead + across
-        state = tracer.settled(start, feet[chosen], ray.direction)
-        if state is None or not _holds_before(tracer, point, state, ray):
+        state = points.settled(start, feet[chosen], ray.direction)
+        if state is None or not _holds_before(points, point, state, ray):
             return None
         found.append((tuple(contacts[chosen].tolist()), state))
     if unfolds:
@@ -94,15 +92,15 @@ def _at(
     return found if whole else None
 
 
-def _holds_before(tracer: SeamTracer, point: Array, state: State, ray: SeamRay) -> bool:
+def _holds_before(points: SeamPoints, point: Array, state: State, ray: SeamRay) -> bool:
     """Whether a seam has the same sites on the way to its first point."""
     nearer = point + NEARER * (state.point - point)
-    before = tracer.state(state.sites, nearer, state.feet, ray.direction)
-    return before is not None and tracer.holds(before)
+    before = points.state(state.sites, nearer, state.feet, ray.direction)
+    return before is not None and points.holds(before)
 
 
 def _local(
-    tracer: SeamTracer, ahead: Array, touching: Contacts, ray: SeamRay, h: float
+    points: SeamPoints, ahead: Array, touching: Contacts, ray: SeamRay, h: float
 ) -> tuple[Ints, Array, Array] | None:
     """The feet of a point on the boundary near those of a ray's contacts.
 
@@ -112,11 +110,11 @@ def _local(
     """
     listed = [(c, site) for c in ray.contacts for site in touching.sites[c]]
     contacts, sites = (np.array(column, dtype=np.int64) for column in zip(*listed, strict=True))
-    points = np.repeat(ahead[None], len(sites), axis=0)
-    feet = support_fields(tracer.table, sites, points, touching.feet[contacts]).foot
+    copies = np.repeat(ahead[None], len(sites), axis=0)
+    feet = support_fields(points.table, sites, copies, touching.feet[contacts]).foot
     distance = norm(ahead - feet)
-    found = tracer.queries.nearest(ahead + TOWARDS * (feet - ahead)).distance
-    true = np.abs(found - (1 - TOWARDS) * distance) <= EXACT * tracer.size
+    found = points.queries.nearest(ahead + TOWARDS * (feet - ahead)).distance
+    true = np.abs(found - (1 - TOWARDS) * distance) <= EXACT * points.size
     true &= norm(feet - touching.feet[contacts]) <= 0.5 * touching.radius
     kept: list[int] = []
     for k in np.flatnonzero(true):

@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from decomp.tracing.equidistance import balanced
+from decomp.tracing.seam_points import SeamPoints
+from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
-
-if TYPE_CHECKING:
-    from decomp.tracing.seams import SeamTracer, State
 
 WIDE, NARROW = 0.15, 0.04
 """Gaps, relative to the radius, from the widest to the narrowest at which points are read off."""
@@ -31,12 +29,12 @@ FARTHEST = 0.2
 
 
 def fin(
-    tracer: SeamTracer, rows: Sequence[State], pair: tuple[int, int]
+    points: SeamPoints, rows: Sequence[State], pair: tuple[int, int]
 ) -> tuple[int, list[State]] | None:
     """The last points of a seam, up to the one where the feet of a pair of contacts meet.
 
     Args:
-        tracer: of the seam.
+        points: of the seam's region.
         rows: known points of it, in order, with gaps that may have vanished in the last ones.
         pair: the contacts.
 
@@ -51,23 +49,23 @@ def fin(
     for _ in range(ROUNDS):
         if WIDE / 2 <= _gap(wide, pair) / wide.radius <= WIDE:
             break
-        moved = _at_gap(tracer, wide, pair, 0.75 * WIDE * wide.radius)
+        moved = _at_gap(points, wide, pair, 0.75 * WIDE * wide.radius)
         if moved is None:
             return None
         wide = moved
     else:
         return None
-    length = _length(tracer, wide, pair)
+    length = _length(points, wide, pair)
     if length is None:
         return None
     # the squared gap falls to `low` of its value over the part 1 - low of the way
     low = (NARROW * wide.radius / _gap(wide, pair)) ** 2
     parts = (1 - np.cos(np.pi * (np.arange(FITTED) + 0.5) / FITTED)) / 2 * (1 - low)
-    states = [_ahead(tracer, wide, part * length) for part in parts]
+    states = [_ahead(points, wide, part * length) for part in parts]
     good = [s for s in states if s is not None and _gap(s, pair) > FEWEST * s.radius]
     if len(good) < FITTED:
         return None
-    end = _balanced(tracer, _end(good, pair), pair)
+    end = _balanced(points, _end(good, pair), pair)
     if float(norm(end.point - wide.point)) > FARTHEST * wide.radius:
         return None
     behind = [s for s in good if float((s.point - start.point) @ start.tangent) > 0]
@@ -78,30 +76,30 @@ def _gap(state: State, pair: tuple[int, int]) -> float:
     return float(norm(state.feet[pair[0]] - state.feet[pair[1]]))
 
 
-def _ahead(tracer: SeamTracer, state: State, length: float) -> State | None:
+def _ahead(points: SeamPoints, state: State, length: float) -> State | None:
     """The point of a seam next to the one a length ahead on the tangent."""
     spot = state.point + length * state.tangent
-    return tracer.state(state.sites, spot, state.feet, state.tangent)
+    return points.state(state.sites, spot, state.feet, state.tangent)
 
 
-def _length(tracer: SeamTracer, state: State, pair: tuple[int, int]) -> float | None:
+def _length(points: SeamPoints, state: State, pair: tuple[int, int]) -> float | None:
     """How far ahead the squared gap would vanish if it went on as it has changed."""
     step = 1e-4 * state.radius
-    before = _ahead(tracer, state, -step)
+    before = _ahead(points, state, -step)
     if before is None:
         return None
     change = (_gap(state, pair) ** 2 - _gap(before, pair) ** 2) / step
     return -(_gap(state, pair) ** 2) / change if change < 0 else None
 
 
-def _at_gap(tracer: SeamTracer, state: State, pair: tuple[int, int], gap: float) -> State | None:
+def _at_gap(points: SeamPoints, state: State, pair: tuple[int, int], gap: float) -> State | None:
     """A point of a seam nearer to one with a given gap: a step of Newton's method, or a part."""
-    length = _length(tracer, state, pair)
+    length = _length(points, state, pair)
     if length is None:
         return None
     step = length * (1 - (gap / _gap(state, pair)) ** 2)
     for _ in range(ROUNDS):
-        moved = _ahead(tracer, state, step)
+        moved = _ahead(points, state, step)
         if moved is not None and _gap(moved, pair) > FEWEST * moved.radius:
             return moved
         step /= 2
@@ -124,12 +122,12 @@ def _end(states: Sequence[State], pair: tuple[int, int]) -> State:
     return replace(states[-1], point=point, feet=feet, radius=float(norm(point - feet[one])))
 
 
-def _balanced(tracer: SeamTracer, state: State, pair: tuple[int, int]) -> State:
+def _balanced(points: SeamPoints, state: State, pair: tuple[int, int]) -> State:
     """A point moved to where all contacts, the pair's being one, are equally far to rounding."""
     rows = [k for k in range(len(state.sites)) if k != pair[1]]
     which = np.array([[state.sites[k] for k in rows]])
     point, own = state.point[None], state.feet[rows][None]
-    found = balanced(tracer.table, tracer.size, which, point, own)
+    found = balanced(points.table, points.size, which, point, own)
     feet = np.array(state.feet)
     feet[rows] = found.feet[0]
     feet[pair[1]] = feet[pair[0]]

@@ -69,6 +69,16 @@ class KnownSeams:
         none = np.empty((1, 0, 3))
         return [int(k) for k in near if self._on([int(k)], point[None], none)[0]]
 
+    def near(self, point: Array, reach: float) -> bool:
+        """Whether a chord of a seam passes a point (3,) within a reach."""
+        for line in self._lines.values():
+            along = dot(point - line.points[:-1], line.way) / line.square
+            along = np.minimum(np.maximum(along, 0.0), 1.0)
+            gap = norm(point - line.points[:-1] - along[:, None] * line.way)
+            if bool((gap <= reach + ASIDE * line.chord).any()):
+                return True
+        return False
+
     def hold(self, points: Array, feet: Array, among: Sequence[int] | None = None) -> Bools:
         """Whether points (k, 3) with some feet (k, j, 3) lie on a seam (with a given number)."""
         numbers = np.array(list(self._seams) if among is None else among, dtype=np.int64)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from decomp.cells.partition import TrimSurface, face_cells, skeleton_cells
+from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.cells.surface import cell_surface, is_closed, open_edges, volume
-from decomp.medial.result import Cell
+from decomp.medial.result import Cell, TrimSurface
 from tests.skeleton_fixtures import BLOCK_FACES, Made, block, capsule
 
 VOLUMES = (7 / 3, 7 / 3, 10 / 3, 10 / 3, 19 / 3, 19 / 3)

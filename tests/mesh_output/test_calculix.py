@@ -77,3 +77,14 @@ def test_names_are_valid_and_different() -> None:
     assert names[6] == "NALL_2"
     assert len(set(names)) == len(names)
     assert all(re.fullmatch(r"[A-Z][A-Z0-9_]{0,79}", name) for name in names)
+
+
+def test_a_cell_and_a_face_of_one_name(tmp_path: Path) -> None:
+    """Element sets have names of their own."""
+    bar().write(tmp_path / "bar.inp")
+    text = (tmp_path / "bar.inp").read_text()
+    assert "** ELSET RIGHT_SIDE: right/side\n" in text
+    assert "** NSET, SURFACE RIGHT_SIDE: right/side\n" in text
+    for line in ("*ELEMENT, TYPE=C3D4, ELSET=RIGHT_SIDE", "*NSET, NSET=RIGHT_SIDE"):
+        assert text.count(f"{line}\n") == 1
+    assert text.count("*SURFACE, NAME=RIGHT_SIDE, TYPE=ELEMENT\n") == 1

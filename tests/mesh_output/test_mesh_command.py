@@ -69,7 +69,7 @@ def test_mesh(model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
 
 
 def test_all_formats(model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    files = [f"out/two{suffix}" for suffix in (".msh", ".vtu", ".xdmf", ".inp", ".mesh")]
+    files = [f"out/two{suffix}" for suffix in (".msh", ".vtu", ".xdmf", ".inp", ".mesh", ".png")]
     (tmp_path / "out").mkdir()
     arguments = ["mesh", str(model), "--volumes", "regions", "--no-sheets", "--quiet", "--msh2"]
     assert main([*arguments, *(word for name in files for word in ("-o", name))]) == 0

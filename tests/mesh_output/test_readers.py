@@ -60,6 +60,7 @@ def test_meshio(suffix: str, data: str, shape: str, tmp_path: Path) -> None:
     if suffix == ".vtu":
         assert read.field_data["surface right/side"].tolist() == [3]
     else:
+        assert read.field_data["right/side"].tolist() == [3, 2]
         assert read.field_data["left/cell-1"].tolist() == [2, 3]
         assert read.field_data["left:front|back"].tolist() == [9, 2]
 

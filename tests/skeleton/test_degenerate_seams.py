@@ -10,9 +10,12 @@ import pytest
 
 import decomp
 from decomp import Cylinder
+from decomp.errors import GeometryError
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.graph import SeamGraph, missed_seams, seam_graph
+from decomp.tracing.seam_points import SeamPoints
 from decomp.vectors import norm
+from tests.skeleton.shapes import washer
 from tests.solids import SOLIDS
 
 ELL = decomp.Block((0, 0, 0), (2, 2, 1), name="whole") - decomp.Block(
@@ -135,3 +138,10 @@ def test_a_seam_that_is_left_out_is_missed() -> None:
     assert len(missed)
     line = graph.seams[0].points
     assert norm(missed[:, None] - line[None]).min(axis=1).max() <= 0.05 * geometry.diagonal
+
+
+def test_a_seam_that_cannot_be_settled_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The closed seams of a washer are found from seeds alone: those must not go unnoticed."""
+    monkeypatch.setattr(SeamPoints, "settled", lambda *_: None)
+    with pytest.raises(GeometryError, match="cannot be found exactly"):
+        graph_of(washer())

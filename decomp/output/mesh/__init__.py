@@ -13,7 +13,7 @@ from decomp.errors import InputError
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
 
-SUFFIXES = (".msh", ".vtu", ".xdmf", ".inp", ".mesh")
+SUFFIXES = (".msh", ".vtu", ".xdmf", ".inp", ".mesh", ".png")
 VERSIONS = ("4.1", "2.2")
 
 
@@ -36,7 +36,7 @@ def encoded(mesh: TetMesh, suffix: str, *, text: bool = False, version: str = "4
     Raises:
         DecompError: the format is written by a library that is not installed.
     """
-    from decomp.output.mesh import inp, medit, msh22, msh41, vtu, xdmf
+    from decomp.output.mesh import inp, medit, msh22, msh41, picture, vtu, xdmf
 
     if suffix == ".msh" and version == "4.1":
         return msh41.encoded(mesh, text=text)
@@ -46,6 +46,7 @@ def encoded(mesh: TetMesh, suffix: str, *, text: bool = False, version: str = "4
         ".xdmf": xdmf.encoded,
         ".inp": inp.encoded,
         ".mesh": medit.encoded,
+        ".png": picture.encoded,
     }
     return modules[suffix](mesh)
 

@@ -2,8 +2,9 @@
 
 Each volume is an element set, and so is each region of several cells. Each surface is a node set
 (*NSET) and, for loads and contact, a list of element faces (*SURFACE), of the elements that its
-normals leave. Names are made valid: letters, digits and `_`, in capitals, at most 80, each once;
-comments at the file's head tell which is which. Sections, materials and steps are for the user.
+normals leave. Names are made valid: letters, digits and `_`, in capitals, at most 80, each once
+among the element sets and once among the others; comments at the file's head tell which is which.
+Sections, materials and steps are for the user.
 """
 
 from __future__ import annotations
@@ -29,13 +30,14 @@ def encoded(mesh: TetMesh) -> bytes:
     volumes = [group for group in mesh.groups if group.dimension == 3]
     surfaces = [group for group in mesh.groups if group.dimension == 2]
     regions = _joined_regions(volumes)
-    names = valid_names([*(g.name for g in volumes), *regions, *(g.name for g in surfaces)])
-    own, rest = names[: len(volumes)], names[len(volumes) :]
-    joined, outer = rest[: len(regions)], rest[len(regions) :]
+    sets = valid_names([*(group.name for group in volumes), *regions])
+    own, joined = sets[: len(volumes)], sets[len(volumes) :]
+    outer = valid_names(group.name for group in surfaces)
     lines = ["*HEADING", f"{re.sub(r'[^ -~]', '_', mesh.name)}, by decomp"]
-    lines += ["** set: name in the model"]
-    named = [*(g.name for g in volumes), *regions, *(g.name for g in surfaces)]
-    lines += [f"** {short}: {name}" for short, name in zip(names, named, strict=True)]
+    named = [*(group.name for group in volumes), *regions]
+    lines += [f"** ELSET {short}: {name}" for short, name in zip(sets, named, strict=True)]
+    named = [group.name for group in surfaces]
+    lines += [f"** NSET, SURFACE {short}: {name}" for short, name in zip(outer, named, strict=True)]
     lines += ["*NODE, NSET=NALL", *_nodes(mesh)]
     kind = "C3D4" if mesh.order == 1 else "C3D10"
     tets = in_vtk_order(mesh.tets) + 1
@@ -50,7 +52,7 @@ def encoded(mesh: TetMesh) -> bytes:
         lines.append(f"*ELSET, ELSET={name}")
         lines += [n for g, n in zip(volumes, own, strict=True) if region in g.regions]
     lines += _surfaces(mesh, surfaces, outer)
-    return ("\n".join(lines) + "\n").encode("ascii")
+    return ("\n".join(lines) + "\n").encode()
 
 
 def valid_names(names: Iterable[str]) -> list[str]:

@@ -1,0 +1,213 @@
+"""The boundary of a region, assembled from its edges, loops and faces."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from decomp.boundary.apexes import apexes
+from decomp.boundary.bounds import region_bounds
+from decomp.boundary.edges import RawEdge
+from decomp.boundary.faces import RawFace
+from decomp.boundary.integrals import FaceIntegrals, Track, face_integrals, tracks
+from decomp.boundary.loops import LoopSet
+from decomp.boundary.member import Member
+from decomp.boundary.naming import face_names
+from decomp.boundary.rays import Walker
+from decomp.boundary.topology import Convexity, Edge, Face, RegionBoundary, Vertex
+from decomp.boundary.torus_loops import genus, winding
+from decomp.carriers import Sphere, Torus
+from decomp.csg.halfspaces import HalfSpaceForm
+from decomp.errors import GeometryError
+from decomp.vectors import Array, place
+
+
+def assembled(
+    form: HalfSpaceForm,
+    member: Member,
+    edges: Sequence[RawEdge],
+    points: Array,
+    sets: Sequence[LoopSet],
+    raw: Sequence[RawFace],
+    reach: float,
+) -> RegionBoundary:
+    """A region's boundary with its measures.
+
+    Args:
+        form: the model's.
+        member: the region.
+        edges: of it.
+        points: (n, 3) its vertices.
+        sets: the loops of the edges on each carrier's sides.
+        raw: faces.
+        reach: radius about the form's centre within which the region lies.
+
+    Raises:
+        GeometryError: loops could not be joined to faces; says where.
+    """
+    quadrature = [tracks(edge) for edge in edges]
+    poles = _poles(form, member, edges, sets, reach)
+    fine, coarse = (
+        [
+            face_integrals(
+                face,
+                form.carriers[face.carrier],
+                edges,
+                lambda k, level=level: quadrature[k][level],  # type: ignore[misc]
+                form.centre,
+                poles.get((face.carrier, face.outward)),
+            )
+            for face in raw
+        ]
+        for level in (0, 1)
+    )
+    _refuse_broken(form, member, raw, fine)
+    names = face_names(raw, [_probes(face, edges, form, member) for face in raw], member)
+    faces = tuple(
+        Face(
+            name,
+            face.carrier,
+            face.outward,
+            integral.area,
+            tuple(tuple((h.edge, h.direction) for h in loop) for loop in face.loops),
+            options,
+            face.point,
+        )
+        for face, integral, (name, options) in zip(raw, fine, names, strict=True)
+    )
+    finished = _edges(edges, raw, quadrature)
+    vertices = _vertices(points, finished) + apexes(form, member, raw, points)
+    area = sum(i.area for i in fine)
+    volume = sum(i.flux for i in fine) / 3
+    rounding = 1e-14 * area * form.scale
+    return RegionBoundary(
+        member.name,
+        form.carriers,
+        faces,
+        finished,
+        vertices,
+        volume,
+        abs(volume - sum(i.flux for i in coarse) / 3) + rounding,
+        area,
+        sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
+        region_bounds(form, member, raw, finished, vertices),
+        _euler(form, member, edges, points, raw),
+    )
+
+
+def _refuse_broken(
+    form: HalfSpaceForm, member: Member, raw: Sequence[RawFace], integrals: Sequence[FaceIntegrals]
+) -> None:
+    """Raise GeometryError where loops were not joined to the right faces: a hole has area < 0."""
+    for face, integral in zip(raw, integrals, strict=True):
+        if integral.area <= 0:
+            raise GeometryError(
+                f"region {member.name!r}: the loops on {form.carrier_name(face.carrier)} near "
+                f"{place(face.point)} could not be joined to faces"
+            )
+
+
+def _poles(
+    form: HalfSpaceForm,
+    member: Member,
+    edges: Sequence[RawEdge],
+    sets: Sequence[LoopSet],
+    reach: float,
+) -> dict[tuple[int, int], Array]:
+    """For each sphere with edges the direction from its centre that keeps farthest from them."""
+    return {
+        (s.carrier, s.outward): Walker(member, edges, s, reach).clearest_direction
+        for s in sets
+        if isinstance(form.carriers[s.carrier], Sphere)
+    }
+
+
+def _probes(face: RawFace, edges: Sequence[RawEdge], form: HalfSpaceForm, member: Member) -> Array:
+    """Points inside a face: its interior point, and some close to its edges."""
+    carrier = form.carriers[face.carrier]
+    near = []
+    for half in [h for loop in face.loops for h in loop][:16]:
+        edge = edges[half.edge]
+        flank = next(
+            f
+            for f in edge.flanks
+            if f.carrier == face.carrier and f.direction_of_loop == half.direction
+        )
+        near.append(edge.point + 1e-4 * form.scale * flank.direction)
+    if not near:
+        return face.point[None, :]
+    candidates = carrier.project(np.array(near))
+    inside = member.is_face(face.carrier, face.outward, candidates)
+    return np.concatenate([face.point[None, :], candidates[inside]])
+
+
+def _edges(
+    edges: Sequence[RawEdge], raw: Sequence[RawFace], quadrature: Sequence[tuple[Track, Track]]
+) -> tuple[Edge, ...]:
+    face_of = {
+        (half.edge, half.direction): index
+        for index, face in enumerate(raw)
+        for loop in face.loops
+        for half in loop
+    }
+    result = []
+    for index, edge in enumerate(edges):
+        first, second = edge.flanks
+        result.append(
+            Edge(
+                edge.curve,
+                edge.start,
+                edge.end,
+                (
+                    face_of[index, first.direction_of_loop],
+                    face_of[index, second.direction_of_loop],
+                ),
+                (first.carrier, second.carrier),
+                edge.ends,
+                edge.convexity,
+                quadrature[index][0].length,
+                edge.samples(),
+            )
+        )
+    return tuple(result)
+
+
+def _vertices(points: Array, edges: Sequence[Edge]) -> tuple[Vertex, ...]:
+    at: list[list[int]] = [[] for _ in points]
+    for index, edge in enumerate(edges):
+        for end in set(edge.vertices or ()):
+            at[end].append(index)
+    result = []
+    for point, incident in zip(points, at, strict=True):
+        kinds = {edges[k].convexity for k in incident} - {Convexity.SMOOTH}
+        if not kinds:
+            convexity = Convexity.SMOOTH
+        else:
+            convexity = kinds.pop() if len(kinds) == 1 else Convexity.SADDLE
+        faces = sorted({f for k in incident for f in edges[k].faces})
+        result.append(Vertex(point, tuple(faces), tuple(incident), convexity))
+    return tuple(result)
+
+
+def _euler(
+    form: HalfSpaceForm,
+    member: Member,
+    edges: Sequence[RawEdge],
+    points: Array,
+    raw: Sequence[RawFace],
+) -> int:
+    """Half the Euler characteristic of the boundary, which is that of the solid."""
+    total = len(points) - sum(edge.ends is not None for edge in edges)
+    for face in raw:
+        handles = 0
+        carrier = form.carriers[face.carrier]
+        if isinstance(carrier, Torus):
+            handles = genus([winding(carrier, edges, p, face.outward) for p in face.loops])
+        total += 2 - 2 * handles - len(face.loops)
+    if total % 2:
+        raise GeometryError(
+            f"region {member.name!r}: its boundary has the odd Euler characteristic {total}, so it "
+            "was not assembled correctly"
+        )
+    return total // 2

@@ -1,0 +1,43 @@
+"""What stands in the native JSON form: the nodes' types and their keys."""
+
+from __future__ import annotations
+
+from decomp.csg.primitives import (
+    Block,
+    Cone,
+    Cylinder,
+    HalfSpace,
+    InfiniteCone,
+    InfiniteCylinder,
+    Primitive,
+    Sphere,
+    Torus,
+)
+
+VERSION = 1
+DEEPEST_OPTION = 16
+"""Options' values may be nested so deep."""
+
+# each primitive's fields: p a point or vector, d a unit vector, n a number
+PRIMITIVES: dict[str, tuple[type[Primitive], dict[str, str]]] = {
+    "block": (Block, {"corner": "p", "size": "p"}),
+    "sphere": (Sphere, {"centre": "p", "radius": "n"}),
+    "cylinder": (Cylinder, {"base": "p", "top": "p", "radius": "n"}),
+    "cone": (Cone, {"base": "p", "base_radius": "n", "top": "p", "top_radius": "n"}),
+    "torus": (Torus, {"centre": "p", "axis": "d", "major": "n", "minor": "n"}),
+    "half_space": (HalfSpace, {"point": "p", "normal": "d"}),
+    "infinite_cylinder": (InfiniteCylinder, {"point": "p", "axis": "d", "radius": "n"}),
+    "infinite_cone": (InfiniteCone, {"apex": "p", "axis": "d", "half_angle": "n"}),
+}
+TYPE_OF = {cls: name for name, (cls, _) in PRIMITIVES.items()}
+# the keys of every other node
+NODES: dict[str, tuple[str, ...]] = {
+    "union": ("parts",),
+    "intersection": ("parts",),
+    "difference": ("base", "tool"),
+    "complement": ("part",),
+    "transformed": ("part", "by"),
+    "copies": ("part", "by"),
+    "labelled": ("part", "name", "options"),
+}
+KNOWN = (*PRIMITIVES, *NODES)

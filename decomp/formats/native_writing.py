@@ -1,0 +1,135 @@
+"""Writing models in the native JSON form."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from decomp.csg.model import Model
+from decomp.csg.primitives import Primitive
+from decomp.csg.solid import (
+    Complement,
+    Copies,
+    Difference,
+    Intersection,
+    Labelled,
+    Options,
+    Solid,
+    Transformed,
+    Union,
+    walk,
+)
+from decomp.errors import InputError
+from decomp.formats.native_schema import DEEPEST_OPTION, PRIMITIVES, TYPE_OF, VERSION
+from decomp.similarity import Similarity
+
+
+def dumps(model: Model) -> str:
+    """Write a model as JSON text, one node a line.
+
+    Raises:
+        InputError: an option's value has no JSON form, or a solid is of an unknown class.
+    """
+    index: dict[int, int] = {}
+    nodes = []
+    for node in walk([region.solid for region in model.regions]):
+        nodes.append(_line(_node(node, index)))
+        index[id(node)] = len(index)
+    regions = [
+        _line(
+            {
+                "name": region.name,
+                "solid": index[id(region.solid)],
+                "options": _options_out(region.options, f"region {region.name!r}"),
+            }
+        )
+        for region in model.regions
+    ]
+    ignored = [_line({"statement": i.statement, "line": i.line}) for i in model.ignored]
+    head = [_line({"format": "decomp"})[1:-1], _line({"version": VERSION})[1:-1]]
+    head.append(_line({"name": model.name})[1:-1])
+    lists = [("regions", regions), ("ignored", ignored), ("nodes", nodes)]
+    body = [f'"{key}": [' + ",".join("\n  " + line for line in rows) + "\n]" for key, rows in lists]
+    return "{\n" + ",\n".join(head + body) + "\n}\n"
+
+
+def _line(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+def _node(node: Solid, index: Mapping[int, int]) -> dict[str, Any]:
+    """A node's JSON object, its parts given by their index."""
+    if isinstance(node, Primitive):
+        kind = TYPE_OF.get(type(node))
+        if kind is None:
+            raise InputError(f"a {type(node).__name__} has no JSON form")
+        fields = {key: _plain_number(getattr(node, key)) for key in PRIMITIVES[kind][1]}
+        return {"type": kind, "name": node.name, **fields}
+    parts = [index[id(child)] for child in node.children()]
+    match node:
+        case Union():
+            return {"type": "union", "parts": parts}
+        case Intersection():
+            return {"type": "intersection", "parts": parts}
+        case Difference():
+            return {"type": "difference", "base": parts[0], "tool": parts[1]}
+        case Complement():
+            return {"type": "complement", "part": parts[0]}
+        case Transformed():
+            return {"type": "transformed", "part": parts[0], "by": _similarity_out(node.by)}
+        case Copies():
+            moves = [_similarity_out(move) for move in node.by]
+            return {"type": "copies", "part": parts[0], "by": moves}
+        case Labelled():
+            options = _options_out(node.options, f"label {node.name!r}")
+            return {"type": "labelled", "part": parts[0], "name": node.name, "options": options}
+        case _:
+            raise InputError(f"a {type(node).__name__} has no JSON form")
+
+
+def _plain_number(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else float(value)
+
+
+def _similarity_out(by: Similarity) -> dict[str, Any]:
+    return {
+        "rotation": by.rotation.tolist(),
+        "scale": float(by.scale),
+        "offset": by.offset.tolist(),
+    }
+
+
+def _options_out(options: Options, where: str) -> dict[str, Any]:
+    return {
+        _option_key(key, where): _option_out(value, f"option {key!r} of {where}")
+        for key, value in options.items()
+    }
+
+
+def _option_key(key: Any, where: str) -> str:
+    if not isinstance(key, str):
+        raise InputError(f"{where} has an option {key!r}, whose name is no text")
+    return key
+
+
+def _option_out(value: Any, where: str, depth: int = 0) -> Any:
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if depth <= DEEPEST_OPTION:
+        if value is None or isinstance(value, (bool, int, str)):
+            return value
+        if isinstance(value, float) and isfinite(value):
+            return value
+        if isinstance(value, (list, tuple)):
+            return [_option_out(each, where, depth + 1) for each in value]
+        if isinstance(value, Mapping):
+            return {
+                _option_key(key, where): _option_out(each, where, depth + 1)
+                for key, each in value.items()
+            }
+    shown = repr(value) if isinstance(value, float) else f"a {type(value).__name__}"
+    raise InputError(f"{where} is {shown}, which has no JSON form")

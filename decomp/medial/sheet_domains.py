@@ -1,0 +1,130 @@
+"""In which domain the sheets of two sites are drawn: a footprint, or a plane that holds them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.carriers import Sphere
+from decomp.carriers.reflexive import reflexive_gap
+from decomp.complex.domains import Domain, domain_of
+from decomp.errors import GeometryError
+from decomp.medial.incidence import Incidence
+from decomp.medial.sheet_surface import SheetSurface
+from decomp.medial.sheet_tests import SheetTests
+from decomp.medial.unrolled import unrolled
+from decomp.sites.site import SiteKind
+from decomp.vectors import Array, norm, place
+
+RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
+FLAT = 1e-10
+MERGED = 1e-9
+"""Points of a footprint nearer to each other than this part of the size have merged."""
+AT_LOCUS = 1e-7
+WAYS = 2000
+"""Directions from a sphere's centre among which a pole is looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """Where sheets are drawn.
+
+    Args:
+        uv: coordinates (k, 2) of the points that border them.
+        domain: None for a plane that the sheets are projected to.
+        column: of which site the domain is the footprint.
+    """
+
+    uv: Array
+    domain: Domain | None
+    column: int
+
+
+class SheetDomains:
+    """Chooses the domains of one region's sheets."""
+
+    def __init__(self, incidence: Incidence, tests: SheetTests) -> None:
+        self._incidence, self._tests = incidence, tests
+        self._boundary, self._size = incidence.boundary, incidence.boundary.diagonal
+
+    def drawn(
+        self, pair: tuple[int, int], points: Array, feet: Array, surface: SheetSurface
+    ) -> Drawing:
+        """Draw the sheets of a pair of sites, given points (k, 3) on them and feet (k, 2, 3).
+
+        Sheets between edges and vertices are drawn in their plane if they have one; so are those
+        whose feet on both sites merge, for there the footprint has too little room.
+        """
+        flat = self._flat(pair, points)
+        faces = [self._incidence.sites[site].kind is SiteKind.FACE for site in pair]
+        if flat is not None and not any(faces):
+            return Drawing(flat, None, 0)
+        column = self._better(pair, points)
+        own, other = pair[column], pair[1 - column]
+        domain = self._domain(own, points, feet[:, column], surface)
+        domain = unrolled(
+            domain,
+            domain.to_plane(feet[:, column], points),
+            lambda at: self._tests.touches(own, other, *domain.lift(at)),
+        )
+        uv = domain.to_plane(feet[:, column], points)
+        if flat is not None and len(cKDTree(uv).query_pairs(MERGED * self._size)):
+            return Drawing(flat, None, 0)
+        return Drawing(uv, domain, column)
+
+    def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
+        """Plane coordinates of points that all lie in a plane."""
+        middle = points.mean(axis=0)
+        _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
+        if spread[-1] > FLAT * self._size * np.sqrt(len(points)):
+            return None
+        return np.asarray((points - middle) @ axes[:2].T)
+
+    def _rank(self, site: int) -> int:
+        it = self._incidence.sites[site]
+        if it.kind is SiteKind.FACE:
+            return RANKS[self._boundary.carriers[self._boundary.faces[it.index].carrier].kind]
+        return 6 if it.kind is SiteKind.EDGE else 7
+
+    def _better(self, pair: tuple[int, int], points: Array) -> int:
+        """Which site's footprint to use: simple carriers first, none whose locus is reached."""
+
+        def cost(column: int) -> int:
+            it = self._incidence.sites[pair[column]]
+            rank = self._rank(pair[column])
+            if it.kind is SiteKind.FACE:
+                face = self._boundary.faces[it.index]
+                carrier = self._boundary.carriers[face.carrier]
+                if reflexive_gap(carrier, face.outward, points).min() <= AT_LOCUS * self._size:
+                    rank += 10
+            return rank
+
+        return min((0, 1), key=cost)
+
+    def _domain(self, site: int, points: Array, feet: Array, surface: SheetSurface) -> Domain:
+        it = self._incidence.sites[site]
+        if it.kind is SiteKind.FACE and self._rank(site) == RANKS["sphere"]:
+            return domain_of(self._boundary, it, pole=self._pole(site, surface, feet))
+        if it.kind is SiteKind.EDGE:
+            return domain_of(self._boundary, it, reach=float(np.median(norm(points - feet))))
+        return domain_of(self._boundary, it)
+
+    def _pole(self, site: int, surface: SheetSurface, feet: Array) -> Array:
+        """A direction from a sphere's centre in which no sheet of the pair lies."""
+        face = self._boundary.faces[self._incidence.sites[site].index]
+        sphere = self._boundary.carriers[face.carrier]
+        assert isinstance(sphere, Sphere)
+        centre, radius = sphere.centre, sphere.radius
+        rng = np.random.default_rng(0)
+        ways = rng.normal(size=(WAYS, 3))
+        ways /= norm(ways)[:, None]
+        q = centre + radius * ways
+        clear = np.min(norm(q[:, None] - feet[None]), axis=1)
+        order = np.argsort(-clear)
+        other = surface.sites[1] if surface.sites[0] == site else surface.sites[0]
+        ok = ~self._tests.touches(site, other, q[order], -face.outward * sphere.normal(q[order]))
+        if not ok.any():
+            raise GeometryError(f"the sheet around the sphere at {place(centre)} has no boundary")
+        return np.asarray(ways[order[int(np.argmax(ok))]])

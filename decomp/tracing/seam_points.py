@@ -1,0 +1,90 @@
+"""Exact points of seams, found from points close by."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.sites import SiteIndex
+from decomp.tracing.contacts import ContactFinder
+from decomp.tracing.following import settle
+from decomp.tracing.loci import on_locus
+from decomp.tracing.probing import TOUCH, TOWARDS
+from decomp.tracing.queries import region_queries
+from decomp.tracing.seam_states import State
+from decomp.tracing.stretch import Stretch
+from decomp.tracing.supports import support_table
+from decomp.vectors import Array
+
+SLACK = 1e-9
+"""Contacts whose distances differ by less than this part of the size are looked at as equal."""
+LOCUS = 1e-7
+"""Points nearer to a reflexive locus than this part of the size lie on it."""
+TURNS = 6
+"""So often sites are named anew where feet are shared by several."""
+
+
+class SeamPoints:
+    """Points of the seams of one region."""
+
+    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
+        self.index, self.boundary, self.region = index, boundary, region
+        self.size = boundary.diagonal
+        self.table = support_table(boundary, index.sites)
+        self.contacts = ContactFinder(index, boundary, region)
+        self.queries = region_queries(index, region)
+
+    def state(self, sites: Sequence[int], point: Array, feet: Array, along: Array) -> State | None:
+        """The point of a seam next to `point`, travelling in the sense of `along`."""
+        at = Stretch(tuple(sites), 1)
+        at.track.feet[:] = feet
+        which = np.array(sites, dtype=np.int64)
+        x, y, z = (float(v) for v in point)
+        dx, dy, dz = (float(v) for v in along)
+        if not settle(self.table, which, at.track, 0, x, y, z, dx, dy, dz, self.size, True):
+            return None
+        return at.state(0)
+
+    def holds(self, state: State) -> bool:
+        """Whether a point is truly on the skeleton, with these sites."""
+        towards = state.point + TOWARDS * (state.feet - state.point)
+        found = self.queries.nearest(np.concatenate([state.point[None], towards]))
+        slack = TOUCH * self.size
+        return bool(
+            found.region[0] == self.region
+            and found.distance[0] >= state.radius - slack
+            and (found.distance[1:] <= (1 - TOWARDS) * state.radius + slack).all()
+        )
+
+    def settled(self, point: Array, feet: Array, along: Array) -> State | None:
+        """The point of a seam next to `point`, whose contacts have feet near the given ones.
+
+        Where a foot is shared by several sites (on an edge), a query from a little way towards it
+        tells which of them is touched from here.
+        """
+        sound: State | None = None
+        sites: tuple[int, ...] = ()
+        for _ in range(TURNS):
+            found = self.touched(point, feet)
+            if found == sites and sound is not None:
+                return sound
+            sites = found
+            state = self.state(sites, point, feet, along)
+            if state is None:
+                return sound
+            if self.holds(state):
+                sound = state
+            point, feet = state.point, state.feet
+        return sound
+
+    def touched(self, point: Array, feet: Array) -> tuple[int, ...]:
+        """The sites that are touched from a point (3,) at feet (m, 3), -1 where none is."""
+        found = self.queries.nearest(point + TOWARDS * (feet - point))
+        return tuple(int(k) for k in found.site)
+
+    def on_locus(self, sites: Sequence[int], point: Array) -> bool:
+        """Whether a point is a centre of curvature of one of the faces among some sites."""
+        own = [k for k in sites if k >= 0]
+        return bool(on_locus(self.boundary, self.index.sites, own, point[None], LOCUS)[0])

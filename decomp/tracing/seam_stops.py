@@ -1,0 +1,157 @@
+"""Where exactly a seam stops having the sites that it has.
+
+It was followed to the last of some rows; the row behind them is beyond the place.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.errors import GeometryError
+from decomp.tracing.fins import fin as merging_feet
+from decomp.tracing.following import advance
+from decomp.tracing.probing import APART
+from decomp.tracing.seam_points import SeamPoints
+from decomp.tracing.seam_states import State
+from decomp.tracing.stretch import Stretch
+from decomp.tracing.walls import Walls, cross
+from decomp.vectors import Array, norm, place
+
+FOOT_ON_EDGE = 1e-9
+NEAR_WALL = 1e-3
+"""Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
+
+
+class SeamStops:
+    """Finds where seams of one region stop."""
+
+    def __init__(self, points: SeamPoints) -> None:
+        self._points, self._size = points, points.size
+        self._walls = Walls(points.boundary, points.index.sites, points.table)
+
+    def crossing(self, stretch: Stretch, count: int, contact: int) -> tuple[int, State]:
+        """Where a contact's foot leaves its site near the last of `count` rows.
+
+        Returns:
+            The number of rows up to there, and the point; it is put into the last of them.
+        """
+        beyond = stretch.state(count)
+        found = self._wall_near(stretch, count, stretch.sites[contact], beyond.feet[contact])
+        if found is None:
+            near = place(stretch.track.points[count - 1])
+            raise GeometryError(f"a seam cannot be followed past the trim near {near}")
+        base, state, spot = found
+        if float(norm(state.feet[contact] - spot)) <= FOOT_ON_EDGE * self._size:
+            state.feet[contact] = spot
+        return stretch.cut(base, state, self._size), state
+
+    def joining(self, stretch: Stretch, count: int) -> tuple[int, State]:
+        """Where a further contact joins those of a seam, near the last of `count` rows.
+
+        Up to there the distance to it is greater in second order, so that its foot, too, passes to
+        another site there.
+        """
+        beyond = stretch.state(count)
+        touching = self._points.contacts.at(beyond.point, 1e-10 * self._size)
+        best: tuple[int, State, Array] | None = None
+        for foot, members in zip(touching.feet, touching.sites, strict=True):
+            if float(norm(beyond.feet - foot).min()) <= APART * beyond.radius:
+                continue
+            for site in members:
+                found = self._wall_near(stretch, count, site, foot)
+                if found is not None and (best is None or found[0] > best[0]):
+                    best = found
+        if best is None:
+            return count, stretch.state(count - 1)
+        return stretch.cut(best[0], best[1], self._size), best[1]
+
+    def fin(self, stretch: Stretch, count: int) -> tuple[int, State]:
+        """Where two contacts run together, just behind the last of `count` rows.
+
+        Either they meet at a vertex, at a wall of their sites, or in the middle of one site: then
+        the square of the gap between their feet vanishes linearly along the seam, and the point is
+        found by extrapolation to no gap, see `fins`.
+        """
+        last = stretch.state(count - 1)
+        for length in (1e-6, 1e-5):
+            if not advance(
+                self._points.table,
+                stretch.which,
+                stretch.track,
+                count - 1,
+                count,
+                length * self._size,
+                self._size,
+                False,
+            ):
+                continue
+            for contact in nearest_pair(last):
+                found = self._wall_near(stretch, count, stretch.sites[contact], last.feet[contact])
+                if found is not None:
+                    base, state, _ = found
+                    return stretch.cut(base, state, self._size), state
+        return count, last
+
+    def merging(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
+        """Where two contacts on one site run together, near the last of `count` rows."""
+        rows = [stretch.state(k) for k in range(count)]
+        one, other = nearest_pair(rows[-1])
+        if stretch.sites[one] != stretch.sites[other]:
+            return None
+        found = merging_feet(self._points, rows, (one, other))
+        if found is None or not self._points.holds(found[1][-1]):
+            return None
+        kept, ahead = found
+        for state in ahead:
+            stretch.put(kept, state)
+            kept += 1
+        return kept, ahead[-1]
+
+    def _wall_near(
+        self, stretch: Stretch, count: int, site: int, foot: Array
+    ) -> tuple[int, State, Array] | None:
+        """Where a seam crosses a wall of a site, near the last of `count` rows.
+
+        Args:
+            stretch, count: points of the seam; the row behind them is beyond the wall.
+            site: whose foot leaves it.
+            foot: that foot beyond the wall, close to the wall's edge.
+
+        Returns:
+            The row from which the wall is ahead, the point, and the point of the edge.
+        """
+        spare = count + 1
+        best: tuple[float, int, State, Array] | None = None
+        for wall in self._walls.of(site):
+            for base in range(count - 1, max(count - 4, -1), -1):
+                # from a row before the change to the point beyond it
+                high = float(norm(stretch.track.points[count] - stretch.track.points[base]))
+                low = 0.0 if base else -1e-3 * high - 1e-6 * self._size
+                spot = np.array(foot)
+                if not cross(
+                    self._points.table,
+                    stretch.which,
+                    stretch.track,
+                    base,
+                    spare,
+                    low,
+                    1.02 * high + 1e-6 * self._size,
+                    spot,
+                    wall.edge,
+                    wall.carrier,
+                    wall.vertex,
+                    self._size,
+                ):
+                    continue
+                off = float(norm(spot - foot))
+                if off <= NEAR_WALL * self._size and (best is None or off < best[0]):
+                    best = (off, base, stretch.state(spare), spot)
+                break
+        return None if best is None else best[1:]
+
+
+def nearest_pair(state: State) -> tuple[int, int]:
+    """The two contacts with the nearest feet."""
+    one, other = np.triu_indices(len(state.feet), 1)
+    k = int(np.argmin(norm(state.feet[one] - state.feet[other])))
+    return int(one[k]), int(other[k])

@@ -1,0 +1,68 @@
+"""From how two sites lie to each other to the kind of their Voronoi surface."""
+
+from __future__ import annotations
+
+from decomp.voronoi.coaxial import coaxial_surface
+from decomp.voronoi.differences import (
+    ball_and_tube,
+    equal_rings,
+    equal_tubes,
+    parallel_tubes,
+    tubes_for_cones,
+    two_planes,
+)
+from decomp.voronoi.focal import focal_form, focal_surface
+from decomp.voronoi.polynomial import Polynomial
+from decomp.voronoi.position import aligned, common_axis
+from decomp.voronoi.shape import Shape
+from decomp.voronoi.sites import (
+    CarrierSite,
+    ConeSite,
+    CylinderSite,
+    PlaneSite,
+    SphereSite,
+    TorusSite,
+)
+
+
+def recognise(
+    f: CarrierSite, g: CarrierSite, e: int, tolerance: float, angle: float
+) -> tuple[Shape, Polynomial | None] | None:
+    """Shape and polynomial of the surface s_f = e s_g, None if it is of no special kind.
+
+    Args:
+        f, g: the sites.
+        e: +1 for the even surface, -1 for the odd one.
+        tolerance: lengths below it count as zero.
+        angle: angles (radians) below it count as zero.
+
+    Raises:
+        InputError: the sites coincide.
+    """
+    axis = common_axis(f, g, tolerance, angle)
+    if axis is not None:
+        return coaxial_surface(f, g, e, axis, tolerance, angle)
+    if isinstance(f, PlaneSite) and isinstance(g, PlaneSite):
+        return two_planes(f, g, e)
+    form = focal_form(f, g, e, tolerance)
+    if form is not None:
+        return focal_surface(form, tolerance, angle)
+    if isinstance(f, SphereSite) and isinstance(g, CylinderSite):
+        equal = abs(float(f.radius - e * g.radius)) <= tolerance
+        return ball_and_tube(f, g) if equal else None
+    if isinstance(f, CylinderSite) and isinstance(g, SphereSite):
+        return recognise(g, f, e, tolerance, angle)
+    if isinstance(f, CylinderSite) and isinstance(g, CylinderSite):
+        if aligned(f.axis, g.axis, angle):
+            return parallel_tubes(f, g, e, tolerance, angle)
+        equal = abs(float(f.radius - e * g.radius)) <= tolerance
+        return equal_tubes(f, g, tolerance) if equal else None
+    if isinstance(f, ConeSite) and isinstance(g, ConeSite):
+        tubes = tubes_for_cones(f, g, e, angle)
+        return None if tubes is None else parallel_tubes(*tubes, e, tolerance, angle)
+    if isinstance(f, TorusSite) and isinstance(g, TorusSite) and e > 0:
+        sizes = abs(float(f.major - g.major)), abs(float(f.minor - g.minor))
+        gaps = [abs(float(a - b)) for a, b in zip(f.centre, g.centre, strict=True)]
+        if max(*sizes, *gaps) <= tolerance:
+            return equal_rings(f, g)
+    return None

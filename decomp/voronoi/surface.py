@@ -1,0 +1,175 @@
+"""Vor(f, g): the points that are as far from f as from g."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from decomp.carriers import Carrier
+from decomp.curves.base import Curve
+from decomp.errors import GeometryError, InputError
+from decomp.parity import Parity
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array, Bools, dot, norm
+from decomp.voronoi.curve_site import of_curve
+from decomp.voronoi.elimination import eliminate
+from decomp.voronoi.exact import exact, floats, minus
+from decomp.voronoi.kinds import Kind
+from decomp.voronoi.polynomial import Polynomial
+from decomp.voronoi.recognise import recognise
+from decomp.voronoi.shape import Shape
+from decomp.voronoi.sites import CarrierSite, SphereSite, VoronoiSite, of_carrier
+
+NEWTON_STEPS = 40
+"""Steps of a projection; it converges quadratically, within about six from close by."""
+HALVINGS = 12
+
+
+@dataclass(frozen=True, eq=False)
+class VoronoiSurface:
+    """The even or odd Voronoi surface of two sites.
+
+    Args:
+        f, g: the sites.
+        parity: even or odd.
+        size: of the model; lengths below `TOLERANCE` times it count as zero.
+        shape: canonical parameters, None for a general surface.
+    """
+
+    f: VoronoiSite
+    g: VoronoiSite
+    parity: Parity
+    size: float
+    shape: Shape | None
+    _known: Polynomial | None
+
+    @property
+    def kind(self) -> Kind:
+        """What it is."""
+        return Kind.GENERAL if self.shape is None else self.shape.kind
+
+    @cached_property
+    def polynomial(self) -> Polynomial | None:
+        """The implicit polynomial, which vanishes on the surface and perhaps elsewhere.
+
+        None for an empty surface and for edge curves whose distance has no known equation.
+        """
+        if self.shape is not None:
+            return self._known
+        if isinstance(self.f, CarrierSite) and isinstance(self.g, CarrierSite):
+            return eliminate(self.f, self.g, self.parity.sign)
+        return None
+
+    @property
+    def degree(self) -> int | None:
+        """Of the polynomial, None if there is none."""
+        return None if self.polynomial is None else self.polynomial.degree
+
+    @property
+    def equation(self) -> str | None:
+        """The polynomial as text, in the model's coordinates."""
+        return None if self.polynomial is None else self.polynomial.text
+
+    def difference(self, p: Array) -> Array:
+        """s_f - e s_g at points (..., 3), e = +1 (even) or -1 (odd): zero on the surface."""
+        p = np.asarray(p, dtype=np.float64)
+        e = self.parity.sign
+        return np.asarray(self.f.signed_distance(p) - e * self.g.signed_distance(p))
+
+    def difference_gradient(self, p: Array) -> Array:
+        """Gradients (..., 3) of `difference`."""
+        p = np.asarray(p, dtype=np.float64)
+        return np.asarray(self.f.gradient(p) - self.parity.sign * self.g.gradient(p))
+
+    def contains(self, p: Array) -> Bools:
+        """Whether points (..., 3) truly are equidistant with the right parity.
+
+        The polynomial vanishes there, but need not hold a true point where it vanishes.
+        """
+        return np.asarray(np.abs(self.difference(p)) <= TOLERANCE * self.size)
+
+    def project(self, p: Array) -> Array:
+        """Points (..., 3) of the true surface close to p, by Newton's steps along the gradient.
+
+        Raises:
+            GeometryError: a point does not reach the surface, as where it is empty.
+        """
+        q = np.array(p, dtype=np.float64)
+        value = self.difference(q)
+        for _ in range(NEWTON_STEPS):
+            if float(np.max(np.abs(value), initial=0.0)) <= 1e-15 * self.size:
+                break
+            slope = self.difference_gradient(q)
+            square = dot(slope, slope)
+            step = np.where(square > 1e-24, value / np.where(square > 1e-24, square, 1.0), 0.0)
+            step = np.clip(step, -self.size, self.size)[..., None] * slope
+            # across a reflexive locus the gradient jumps: then a shorter step is taken
+            for _ in range(HALVINGS):
+                ahead = self.difference(q - step)
+                worse = np.abs(ahead) > np.abs(value)
+                if not worse.any():
+                    break
+                step = np.where(worse[..., None], step / 2, step)
+            q, value = q - step, ahead
+        lost = ~self.contains(q)
+        if lost.any():
+            where = np.asarray(p, dtype=np.float64)[lost].reshape(-1, 3)[0]
+            raise GeometryError(
+                f"no point of the {self.parity.value} Voronoi surface of {self.f.name} and "
+                f"{self.g.name} is found near {tuple(float(x) for x in where)}"
+            )
+        return q
+
+
+def site_of(thing: VoronoiSite | Carrier | Curve | ArrayLike) -> VoronoiSite:
+    """The site that a carrier, a curve or a point (3,) is.
+
+    Raises:
+        InputError: it is none of these.
+    """
+    if isinstance(thing, VoronoiSite):
+        return thing
+    if isinstance(thing, Carrier):
+        return of_carrier(thing)
+    if isinstance(thing, Curve):
+        return of_curve(thing)
+    values: Any = thing
+    if np.ndim(values) != 1 or len(values) != 3:
+        raise InputError(f"a site is a carrier, a curve or a point of three numbers, got {thing!r}")
+    return SphereSite(values, exact(0))
+
+
+def surface(
+    f: VoronoiSite | Carrier | Curve | ArrayLike,
+    g: VoronoiSite | Carrier | Curve | ArrayLike,
+    parity: Parity | str | None = None,
+    *,
+    size: float | None = None,
+) -> VoronoiSurface:
+    """The Voronoi surface of two sites: carriers, curves (lines, circles, edges) or points (3,).
+
+    Args:
+        parity: even or odd; None means even. Points and curves have no inside: between two of
+            them there is no odd surface, and with a carrier the odd one lies inside it.
+        size: the model's, by which lengths and angles are judged to be zero; by default the
+            largest of the sites' radii and the distance between them.
+
+    Raises:
+        InputError: the sites coincide, or are points or curves both and odd is asked for.
+    """
+    one, two = site_of(f), site_of(g)
+    which = Parity(parity.value if isinstance(parity, Parity) else parity or "even")
+    if which is Parity.ODD and not (one.two_sided or two.two_sided):
+        raise InputError(f"{one.name} and {two.name} have no inside, so no odd Voronoi surface")
+    if size is None:
+        apart = float(norm(floats(minus(one.reference, two.reference))))
+        size = max(one.size, two.size, apart) or 1.0
+    found = None
+    if isinstance(one, CarrierSite) and isinstance(two, CarrierSite):
+        found = recognise(one, two, which.sign, TOLERANCE * size, TOLERANCE)
+    shape, known = (None, None) if found is None else found
+    return VoronoiSurface(one, two, which, size, shape, known)

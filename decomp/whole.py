@@ -1,0 +1,170 @@
+"""The complex of all regions of a model, and the skeleton that it shows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.cells.partition import face_cells, skeleton_cells
+from decomp.certificate.certificate import Certified, certified, explained, shortcomings
+from decomp.certificate.evidence import Evidence
+from decomp.complex.boundary import BoundaryMesh
+from decomp.complex.model import Complex, LineKind, Patch, PatchKind
+from decomp.complex.refine import refined
+from decomp.geometry import Geometry
+from decomp.medial.assembly import RegionParts
+from decomp.medial.described import RegionDescription
+from decomp.medial.region_curves import RegionCurves
+from decomp.medial.result import RegionSkeleton, Skeleton, TrimSurface
+from decomp.medial.trim_maker import owners
+from decomp.tracing.queries import region_queries
+from decomp.vectors import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What has come of a try.
+
+    Args:
+        skeleton: None if it fails its certificate.
+        failures: why.
+        only_volume: whether only the cells' volumes are too far off.
+        volume_error: the largest.
+    """
+
+    skeleton: Skeleton | None
+    failures: list[str]
+    only_volume: bool
+    volume_error: float
+
+
+class Whole:
+    """The complex of all regions, refined, and what its parts are."""
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        relative: float,
+        fineness: float,
+        surface: BoundaryMesh,
+        curves: list[RegionCurves],
+        parts: list[RegionParts],
+    ) -> None:
+        self._geometry, self._relative = geometry, relative
+        self._surface, self._curves, self._parts = surface, curves, parts
+        patches = [each.patch for each in surface.patches]
+        lines = list(surface.lines)
+        self._sheet_patch: list[list[int]] = []
+        self._trims: list[list[TrimSurface]] = []
+        self._line: list[list[int]] = []
+        for part in parts:
+            self._sheet_patch.append([len(patches) + k for k in range(len(part.sheets))])
+            patches += [Patch(PatchKind.SHEET, s.surface, s.triangles) for s in part.sheets]
+            own = []
+            for trim, patch in part.trims:
+                own.append(TrimSurface(len(patches), trim.faces))
+                patches.append(patch)
+            self._trims.append(own)
+            self._line.append([len(lines) + k for k in range(len(part.lines))])
+            lines += part.lines + part.rulings
+        points = np.concatenate([surface.points, *(part.points for part in parts)])
+        given = Complex(points, tuple(patches), tuple(lines))
+        self.complex, self._number = refined(given, fineness * geometry.diagonal)
+
+    def result(self) -> Result:
+        """The finished skeleton, or what its certificate lacks."""
+        geometry = self._geometry
+        radius = self._radius()
+        regions: list[RegionSkeleton] = []
+        failures: list[str] = []
+        short: set[str] = set()
+        for number in range(len(geometry.regions)):
+            region, found = self._region(number, radius)
+            regions.append(region)
+            short |= set(shortcomings(found.certificate, self._relative))
+            lines = explained(found, self._relative, geometry.sites)
+            failures += [f"region {region.name}: {line}" for line in lines]
+        made = Skeleton(
+            geometry.model.name,
+            geometry.diagonal,
+            self._relative * geometry.diagonal,
+            geometry.sites,
+            self.complex,
+            radius,
+            tuple(regions),
+        )
+        return Result(
+            None if failures else made,
+            failures,
+            short == {"volume_error"},
+            max(region.certificate.volume_error for region in regions),
+        )
+
+    def _radius(self) -> Array:
+        points = self.complex.points
+        radius = np.zeros(len(points))
+        boundary = [p.triangles for p in self.complex.patches[: len(self._surface.patches)]]
+        on = np.zeros(len(points), dtype=np.bool_)
+        for triangles in boundary:
+            on[triangles] = True
+        rows = np.flatnonzero(~on)
+        index = self._geometry.index
+        for region in range(len(self._geometry.regions)):
+            inside, depth = region_queries(index, region).depth(points[rows])
+            radius[rows[inside]] = depth[inside]
+            rows = rows[~inside]
+        if len(rows):
+            radius[rows] = index.nearest(points[rows]).distance
+        return radius
+
+    def _region(self, number: int, radius: Array) -> tuple[RegionSkeleton, Certified]:
+        geometry, mesh = self._geometry, self.complex
+        boundary, curves = geometry.regions[number], self._curves[number]
+        drawn = RegionDescription(
+            region_queries(geometry.index, number),
+            curves,
+            self._parts[number],
+            mesh,
+            radius,
+            self._number,
+            self._sheet_patch[number],
+            self._line[number],
+        )
+        sheets, lines = drawn.sheets_and_lines()
+        reflexive = drawn.reflexive()
+        face_sides = self._surface.face_sides(number, len(boundary.faces))
+        trims = self._trims[number]
+        owner = owners(curves)
+        cells_of_faces = face_cells(mesh, boundary, face_sides, sheets, trims, owner)
+        cells = skeleton_cells(mesh, boundary, cells_of_faces, trims)
+        evidence = Evidence(
+            geometry.index,
+            number,
+            geometry.diagonal,
+            mesh,
+            radius,
+            sheets,
+            reflexive,
+            face_sides,
+            cells,
+            cells_of_faces,
+        )
+        found = certified(evidence)
+        return (
+            RegionSkeleton(
+                boundary.name,
+                boundary,
+                sheets,
+                tuple(line for kind, line in lines if kind is LineKind.SEAM),
+                tuple(line for kind, line in lines if kind is LineKind.TRIM),
+                tuple(line for kind, line in lines if kind is LineKind.RIM),
+                drawn.junctions(),
+                reflexive,
+                face_sides,
+                cells,
+                cells_of_faces,
+                found.certificate,
+            ),
+            found,
+        )

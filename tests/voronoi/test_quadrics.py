@@ -1,0 +1,40 @@
+"""Where a Voronoi surface is of degree 2 or less, its invariants tell the same kind as geometry."""
+
+from __future__ import annotations
+
+from itertools import combinations_with_replacement
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from decomp.errors import InputError
+from decomp.voronoi import Kind, Parity, surface
+from tests.voronoi.instances import FEW, SITES
+from tests.voronoi.quadrics import quadric_kind
+
+PAIRS = list(combinations_with_replacement(SITES, 2))
+
+
+@pytest.mark.parametrize(("one", "two"), PAIRS)
+@FEW
+@given(st.data())
+def test_kind_agrees_with_invariants(one: str, two: str, data: st.DataObject) -> None:
+    f, g = data.draw(SITES[one]), data.draw(SITES[two])
+    for parity in list(Parity) if f.two_sided or g.two_sided else [Parity.EVEN]:
+        try:
+            found = surface(f, g, parity)
+        except InputError:
+            assume(False)
+        if found.polynomial is None:
+            assert found.kind is Kind.EMPTY
+        elif found.polynomial.degree <= 2:
+            assert found.kind is quadric_kind(found.polynomial)
+        else:
+            assert found.kind in (
+                Kind.GENERAL,
+                Kind.TORUS,
+                Kind.REVOLVED_PARABOLA,
+                Kind.REVOLVED_ELLIPSE,
+                Kind.REVOLVED_HYPERBOLA,
+            )
