@@ -6,9 +6,10 @@ Each route runs in a process of its own, with a time limit, from the model (a so
 Netgen file) to tetrahedra in memory; imports and, for decomp, the loading of compiled kernels come
 before. Times are wall seconds and CPU seconds of all threads and child processes.
 
-- decomp: `decomp.mesh` with its defaults.
+- decomp: `decomp.mesh` with a largest edge of 1/20 of the model's diagonal (left to itself it makes
+  edges shorter where curved faces need it for their volume, which the facets' route cannot).
 - facets: manifold3d's booleans of primitives tessellated to the same chord error, then pytetwild
-  with its defaults at the same absolute edge length and epsilon, which decomp has asked for.
+  with its defaults at the same absolute edge length and epsilon that decomp gives it.
 - Gmsh: its OpenCASCADE kernel, with a largest edge that gives about as many tetrahedra.
 - Netgen: its CSG kernel, likewise.
 
@@ -56,6 +57,7 @@ MODELS = {
     "manyholes": "netgen/manyholes.geo",
 }
 ROUTES = ("decomp", "facets", "Gmsh", "Netgen")
+EDGES = 20.0
 CHORD = 0.5
 """Chord error of decomp's complex and of the facets, in epsilons."""
 CLOSE = 0.1
@@ -118,10 +120,11 @@ def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
 
     meshing.tetrahedralized = recording
     source = source_of(name)
-    clock = Clock()
-    made = meshing.mesh(source)
-    spent = clock.spent()
     geometry = Geometry(source)
+    size = geometry.diagonal / EDGES
+    clock = Clock()
+    made = meshing.mesh(source, size=size)
+    spent = clock.spent()
     exact = geometry.regions[0].volume
     names = {"names": float(len(made.groups)), "unprojected": float(len(made.unprojected))}
     told = {

@@ -115,9 +115,10 @@ class _Attempt:
     ) -> tuple[BoundaryMesh, list[RegionParts]]:
         """Triangulate; where curves cross in a footprint, sample them more finely."""
         tolerance *= SHARE
+        nodes = [point for region in curves for point in region.turning_feet()]
         for level in range(LEVELS):
             try:
-                surface = boundary_mesh(self._geometry, tolerance)
+                surface = boundary_mesh(self._geometry, tolerance, nodes=nodes)
                 return surface, self._regions(curves, surface, tolerance)
             except CrossingError:
                 if level == LEVELS - 1:

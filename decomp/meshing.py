@@ -20,10 +20,10 @@ from decomp.csg.solid import Solid
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
-from decomp.tetra.child import EDGE_IN_EPSILONS, Settings, tetrahedralized
+from decomp.tetra.child import Settings, tetrahedralized
 from decomp.tetra.classify import classified, region_of
 from decomp.tetra.faces import faces_of
-from decomp.tetra.features import fitting_epsilon, usual_epsilon
+from decomp.tetra.features import OF_LENGTH, fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
@@ -37,7 +37,7 @@ from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
-CHORD = 0.75
+CHORD = 0.4
 """How far triangles may be off their surfaces, in parts of epsilon."""
 
 Progress = Callable[[str, float], None]
@@ -87,18 +87,19 @@ def mesh(
             raise InputError(f"{what} must be one of {allowed}, got {value!r}")
     wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
-    made, epsilon = _surface(geometry, maker, cells == "face")
+    sizes = region_sizes(geometry, wanted)
+    made, epsilon = _surface(geometry, maker, float(sizes.min()), cells == "face")
     tell("sizing", 0.3)
     wish = wishes(geometry, made, wanted)
-    sizes = region_sizes(geometry, wanted)
     settings = Settings(
-        float(wish.lengths.max()), min(epsilon, float(wish.lengths.min()) / EDGE_IN_EPSILONS)
+        float(wish.lengths.max()), min(epsilon, OF_LENGTH * float(wish.lengths.min()))
     )
     field = size_field(geometry, wish, sizes)
     known = cell_map(made)
     plan = layout(made, known)
     tell("TetWild", 0.4)
-    raw = tetrahedralized(*_used(plan.complex.points, plan.triangles), settings, field, timeout)
+    soup = _used(plan.complex.points, plan.triangles)
+    raw = tetrahedralized(*soup, settings, field, timeout, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
     label = classified(geometry, known, raw.points, raw.tets, epsilon)
@@ -133,9 +134,11 @@ def mesh(
     )
 
 
-def _surface(geometry: Geometry, maker: SurfaceMaker, by_face: bool) -> tuple[MeshSurface, float]:
+def _surface(
+    geometry: Geometry, maker: SurfaceMaker, length: float, by_face: bool
+) -> tuple[MeshSurface, float]:
     """The complex, and the epsilon that it is fine enough for."""
-    epsilon = usual_epsilon(geometry)
+    epsilon = usual_epsilon(geometry, length)
     made = maker.made(CHORD * epsilon, by_face)
     fitting = fitting_epsilon(geometry, made, epsilon)
     if fitting < 0.99 * epsilon:

@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -111,15 +111,18 @@ class BoundaryMesh:
         return np.concatenate(parts)
 
 
-def boundary_mesh(geometry: Geometry, tolerance: float, turn: float = TURN) -> BoundaryMesh:
+def boundary_mesh(
+    geometry: Geometry, tolerance: float, turn: float = TURN, nodes: Iterable[Array] = ()
+) -> BoundaryMesh:
     """Triangulate the boundaries of all regions from scratch.
 
     Args:
         geometry: of the model.
         tolerance: the most that a curve leaves its segments, in model units.
         turn: the most (radians) that normals differ along an edge inside a face.
+        nodes: points (3,) on edges that are to be vertices.
     """
-    pieces = boundary_pieces(geometry)
+    pieces = boundary_pieces(geometry, nodes)
     return boundary_patches(geometry, pieces, sample_pieces(pieces, tolerance), turn)
 
 

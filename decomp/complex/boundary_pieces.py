@@ -7,7 +7,7 @@ another region. Pieces of two regions on one curve are then the same or disjoint
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
@@ -87,8 +87,13 @@ class _Use:
     edge: Edge
 
 
-def boundary_pieces(geometry: Geometry) -> Pieces:
-    """Cut the edges of all regions of a model into shared pieces."""
+def boundary_pieces(geometry: Geometry, more: Iterable[Array] = ()) -> Pieces:
+    """Cut the edges of all regions of a model into shared pieces.
+
+    Args:
+        geometry: of the model.
+        more: points (3,) on edges at which they are to be cut too.
+    """
     form = geometry.boundaries.form
     table = PointTable(WELD * form.tolerance)
     of_vertex = tuple(
@@ -98,6 +103,8 @@ def boundary_pieces(geometry: Geometry) -> Pieces:
     if len(geometry.regions) > 1:
         for point in _edge_crossings(uses, form):
             table.add(point)
+    for point in more:
+        table.add(point)
     nodes = table.points()
 
     pieces: list[Piece] = []

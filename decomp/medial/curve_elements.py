@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
 import numpy as np
 
+from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve
@@ -41,13 +43,11 @@ class SeamCurve:
         Raises:
             GeometryError: Newton's method fails at one of them.
         """
-        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        feet = self.feet[self._apart][nearest_rows(self.points[self._apart], points)]
-        found = equidistant(self.incidence.boundary, self.incidence.sites, which, points, feet)
-        if not found.converged.all():
-            bad = points[~found.converged][0]
-            raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
-        return found.points
+        return place_seams([self], np.zeros(len(points), dtype=np.int64), points)
+
+    def feet_near(self, points: Array) -> Array:
+        """The feet (k, m, 3) of the known points nearest to given ones (k, 3)."""
+        return np.asarray(self.feet[self._apart][nearest_rows(self.points[self._apart], points)])
 
     @cached_property
     def _apart(self) -> Bools:
@@ -63,6 +63,50 @@ class SeamCurve:
         if not good.any():
             raise GeometryError(f"the seam at {place(self.points[0])} has contacts that are one")
         return good
+
+
+def place_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Array:
+    """Points (k, 3), each moved onto the seam of its number (k,).
+
+    All seams are of one region and have the same number of contacts.
+
+    Raises:
+        GeometryError: Newton's method fails at one of the points.
+    """
+    it = seams[0].incidence
+    sites: Ints = np.array([seam.sites for seam in seams])[which]
+    feet = np.empty((*sites.shape, 3))
+    for number, seam in enumerate(seams):
+        rows = np.flatnonzero(which == number)
+        feet[rows] = seam.feet_near(points[rows])
+    found = equidistant(it.boundary, it.sites, sites, points, feet)
+    if not found.converged.all():
+        bad = points[~found.converged][0]
+        raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
+    return found.points
+
+
+def place_each(curves: Sequence[CurveElement], which: Ints, points: Array) -> Array:
+    """Points (k, 3), each moved onto the curve of its number (k,); seams together.
+
+    Raises:
+        GeometryError: a point cannot be moved.
+    """
+    moved = np.array(points)
+    seams: dict[int, dict[int, SeamCurve]] = {}
+    for number in np.unique(which).tolist():
+        curve = curves[number]
+        if isinstance(curve, SeamCurve):
+            seams.setdefault(len(curve.sites), {})[number] = curve
+        else:
+            rows = which == number
+            moved[rows] = curve.place(points[rows])
+    for members in seams.values():
+        numbers = np.array(list(members))
+        rows = np.flatnonzero(np.isin(which, numbers))
+        local = np.searchsorted(numbers, which[rows])
+        moved[rows] = place_seams(list(members.values()), local, points[rows])
+    return moved
 
 
 @dataclass(frozen=True, eq=False)

@@ -129,6 +129,13 @@ def _locus_runs(
         s[k] = _turn(curve, radius, float(s[k - 1]), float(s[k + 1]), way[k - 1])
     points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
     bounds = [0, *turns.tolist(), RUN]
+    whole = curve.closed and trim.end - trim.start >= (1 - 1e-12) * (curve.end - curve.start)
+    if whole and len(turns) > 1:
+        # the parameter's own start is no end of a run
+        last = int(turns[-1])
+        s = np.concatenate([s[last:-1] - (curve.end - curve.start), s[: last + 1]])
+        points = np.concatenate([points[last:-1], points[: last + 1]])
+        bounds = [0, *(turns + RUN - last).tolist()]
     return [
         LocusRun(number, s[a : b + 1], points[a : b + 1]) for a, b in itertools.pairwise(bounds)
     ]

@@ -9,7 +9,8 @@ import numpy as np
 
 from decomp.complex.model import Complex, LineKind
 from decomp.medial.assembly import RegionParts
-from decomp.medial.radius_range import SheetRadius, range_along
+from decomp.medial.radius_along import ranges_along
+from decomp.medial.radius_range import DrawnSheet, SheetRadii
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import Junction, Parity, Reflexive, Sheet, SkeletonLine
 from decomp.medial.sheets import SheetPart
@@ -55,32 +56,42 @@ class RegionDescription:
         return self._with_extrema(sheets, [line for _, line in lines]), lines
 
     def _sheet(self, part: SheetPart, patch: int) -> Sheet:
+        """A sheet, with the least and greatest radius of its vertices."""
         triangles = self._mesh.patches[patch].triangles
         corners = self._mesh.points[triangles]
         doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-        over = SheetRadius(self._queries, part.sites, part.surface)
+        used = self._radius[triangles]
         return Sheet(
             part.sites,
             _parity(self._curves, part.sites),
             patch,
             float(doubled.sum() / 2),
-            over.range(self._mesh.points, triangles, self._radius),
+            (float(used.min()), float(used.max())),
         )
 
     def _with_extrema(
-        self,
-        sheets: tuple[Sheet, ...],
-        lines: list[SkeletonLine],
+        self, sheets: tuple[Sheet, ...], lines: list[SkeletonLine]
     ) -> tuple[Sheet, ...]:
-        """The sheets with least and greatest radius widened by those along their borders."""
-        ranges = [sheet.radius for sheet in sheets]
-        for line in lines:
-            drawn = self._mesh.lines[line.line]
-            own = self._mesh.points[drawn.vertices], self._radius[drawn.vertices]
-            low, high = range_along(self._queries, drawn.curve, *own)
+        """The sheets with the extreme radii between vertices, along their borders and inside."""
+        mesh, ranges = self._mesh, [sheet.radius for sheet in sheets]
+        drawn = [mesh.lines[line.line] for line in lines]
+        along = ranges_along(
+            self._queries,
+            [line.curve for line in drawn],
+            [line.vertices for line in drawn],
+            mesh.points,
+            self._radius,
+        )
+        for line, (low, high) in zip(lines, along, strict=True):
             for k in line.sheets:
                 ranges[k] = (min(ranges[k][0], low), max(ranges[k][1], high))
-        return tuple(replace(sheet, radius=own) for sheet, own in zip(sheets, ranges, strict=True))
+        patches = [mesh.patches[sheet.patch] for sheet in sheets]
+        asked = [
+            DrawnSheet(sheet.sites, patch.surface, patch.triangles, known)
+            for sheet, patch, known in zip(sheets, patches, ranges, strict=True)
+        ]
+        found = SheetRadii(self._queries, asked).ranges(mesh.points, self._radius)
+        return tuple(replace(s, radius=own) for s, own in zip(sheets, found, strict=True))
 
     def _meeting(self, sheets: tuple[Sheet, ...]) -> list[tuple[LineKind, SkeletonLine]]:
         """Seams, trims and rims, by the number of sheets that meet along them."""

@@ -1,19 +1,20 @@
-"""The least and the greatest radius over a sheet or along a line.
+"""The least and the greatest radius over sheets.
 
 Vertices alone do not tell: a flat disc between two spherical caps is thickest where it has none.
 On a sheet with unit normal n the radius grows by h = g - (g.n) n, g being the gradient of the
 distance to either contact. Where h turns within a triangle an extremum can lie inside; it is
 climbed to by Newton's method with the eigenvalues' signs set right, so that each step goes up.
+All sheets of a region are climbed at once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.complex.model import CurveElement, SurfaceElement
+from decomp.complex.model import SurfaceElement
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
@@ -25,183 +26,213 @@ LEVEL = 1e-10
 TURNED = 0.5
 """Cosine between the ways of growth at two corners, below which an extremum may lie between."""
 STEPS = 12
-AT_REST = 1e-9
-"""Steps shorter than this part of the size end the climb: the radius is flat to second order."""
+GAIN = 1e-13
+"""Gains below this part of the size are none."""
 SPACING = 1e-5
 """Of finite differences, as a part of the size."""
 ACROSS = 1e-9
 """How far to either side of a sheet its sites are asked for, as a part of the size."""
 SLACK = 1e-12
+APART = 1e-3
+"""Feet nearer than this part of the radius are one."""
 CURVED = 1e-12
-SECTIONS = 45
-NOISE = 1e-14
-"""Radii that differ by less than this part of the size are equal."""
-GOLDEN = (5**0.5 - 1) / 2
-NEAR_END = 1e-4
-"""So far along a chord it is asked whether the radius grows or shrinks from its ends on."""
+HOPELESS = 3.0
+"""A climb ends where this multiple of the gain to be expected would not lead beyond what is known.
+"""
 
 Range = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class SheetRadius:
-    """The radius over one sheet.
+class DrawnSheet:
+    """A sheet whose radius is asked for.
 
     Args:
-        queries: of the region.
-        sites: the sheet's.
+        sites: its two.
         surface: that it lies on.
+        triangles: (m, 3).
+        known: least and greatest radius of its vertices and borders.
     """
 
-    queries: RegionQueries
     sites: tuple[int, int]
     surface: SurfaceElement
+    triangles: Ints
+    known: Range
 
-    def range(self, points: Array, triangles: Ints, radius: Array) -> Range:
-        """Least and greatest radius over triangles.
+
+class SheetRadii:
+    """Seeks the extreme radii of the sheets of one region."""
+
+    def __init__(self, queries: RegionQueries, sheets: Sequence[DrawnSheet]) -> None:
+        self._queries, self._size, self._sheets = queries, queries.size, sheets
+        self._sites: Ints = np.sort(np.array([s.sites for s in sheets]).reshape(-1, 2), axis=1)
+        families: dict[int, list[int]] = {}
+        self._alone: list[int] = []
+        for k, sheet in enumerate(sheets):
+            family = sheet.surface.family if isinstance(sheet.surface, SheetSurface) else None
+            if family is None:
+                self._alone.append(k)
+            else:
+                families.setdefault(id(family), []).append(k)
+        self._families = list(families.values())
+
+    def ranges(self, points: Array, radius: Array) -> list[Range]:
+        """Least and greatest radius of each sheet.
 
         Args:
             points: (n, 3) vertices.
-            triangles: (m, 3).
-            radius: (n,) at the vertices.
+            radius: (n,) there.
         """
-        least, most = float(radius[triangles].min()), float(radius[triangles].max())
+        if not self._sheets:
+            return []
+        which: Ints = np.repeat(
+            np.arange(len(self._sheets)), [len(s.triangles) for s in self._sheets]
+        )
+        triangles = np.concatenate([s.triangles for s in self._sheets])
+        known = np.array([s.known for s in self._sheets])
         corners = points[triangles]
         weights = np.full((3, 3), INNER / 3) + (1 - INNER) * np.eye(3)
-        starts, placed = self._on(np.einsum("ij,tjk->tik", weights, corners).reshape(-1, 3))
-        rise = self._rise(starts).reshape(-1, 3, 3)
+        starts = np.einsum("ij,tjk->tik", weights, corners)
+        sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+        for column, sign in ((0, -1.0), (1, 1.0)):
+            # nowhere does the radius change faster than the place
+            highest = (sign * radius[triangles]).max(axis=1) + sides
+            rows = np.flatnonzero(highest > sign * known[which, column])
+            rows = rows[self._turns(which[rows], starts[rows])]
+            if not len(rows):
+                continue
+            owner = np.repeat(which[rows], 3)
+            reach = np.repeat(sides[rows] / 2, 3)
+            best = sign * known[:, column]
+            self._climb(owner, starts[rows].reshape(-1, 3), reach, sign, best)
+            known[:, column] = sign * best
+        return [(float(low), float(high)) for low, high in known]
+
+    def _turns(self, which: Ints, starts: Array) -> Bools:
+        """In which triangles (t,) the radius grows to different sides at its corners (t, 3, 3)."""
+        placed, good = self._on(np.repeat(which, 3), starts.reshape(-1, 3))
+        rise = self._rise(np.repeat(which, 3), placed).reshape(-1, 3, 3)
         speed = norm(rise)
-        turned = np.zeros(len(triangles), dtype=np.bool_)
+        turned = np.zeros(len(which), dtype=np.bool_)
         for i, j in ((0, 1), (1, 2), (2, 0)):
             turned |= dot(rise[:, i], rise[:, j]) < TURNED * speed[:, i] * speed[:, j]
-        turned &= placed.reshape(-1, 3).all(axis=1) & (speed.max(axis=1) > LEVEL)
-        sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
-        starts = starts.reshape(-1, 3, 3)
-        # nowhere does the radius change faster than the place
-        high = turned & (radius[triangles].max(axis=1) + sides > most)
-        low = turned & (radius[triangles].min(axis=1) - sides < least)
-        for sign, chosen in ((1.0, high), (-1.0, low)):
-            if chosen.any():
-                reach = np.repeat(sides[chosen] / 2, 3)
-                found = self._climb(starts[chosen].reshape(-1, 3), reach, sign)
-                if len(found):
-                    least, most = min(least, float(found.min())), max(most, float(found.max()))
-        return least, most
+        steep = speed.max(axis=1) > LEVEL
+        return np.asarray(turned & steep & good.reshape(-1, 3).all(axis=1))
 
-    def _on(self, points: Array) -> tuple[Array, Bools]:
-        """Points moved onto the surface, and whether that succeeded."""
-        if isinstance(self.surface, SheetSurface):
-            return self.surface.try_place(points)
-        return self.surface.place(points), np.ones(len(points), dtype=np.bool_)
+    def _on(self, which: Ints, points: Array) -> tuple[Array, Bools]:
+        """Points moved onto the surfaces of some sheets, and whether that succeeded."""
+        moved, good = np.array(points), np.ones(len(points), dtype=np.bool_)
+        for members in self._families:
+            rows, local = _rows_of(which, members)
+            if len(rows):
+                surfaces = [self._surface(k) for k in members]
+                moved[rows], good[rows] = SheetSurface.place_together(surfaces, local, points[rows])
+        for k in self._alone:
+            rows = np.flatnonzero(which == k)
+            surface = self._sheets[k].surface
+            if not len(rows):
+                continue
+            if isinstance(surface, SheetSurface):
+                moved[rows], good[rows] = surface.try_place(points[rows])
+            else:
+                moved[rows] = surface.place(points[rows])
+        return moved, good
 
-    def _rise(self, points: Array) -> Array:
-        """The gradient h (k, 3) of the radius along the surface."""
-        found = self.queries.nearest(points)
-        away = points - found.foot
-        gradient = away / np.maximum(found.distance, 1e-300)[:, None]
-        normal = self.surface.normal(points)
-        return np.asarray(gradient - dot(gradient, normal)[:, None] * normal)
+    def _normal(self, which: Ints, points: Array) -> Array:
+        normal = np.empty_like(points)
+        left = np.ones(len(points), dtype=np.bool_)
+        for members in self._families:
+            rows, local = _rows_of(which, members)
+            if len(rows):
+                surfaces = [self._surface(k) for k in members]
+                found, good = SheetSurface.normals_together(surfaces, local, points[rows])
+                normal[rows] = found
+                left[rows[good]] = False
+        for k in np.unique(which[left]):
+            rows = np.flatnonzero(left & (which == k))
+            normal[rows] = self._sheets[k].surface.normal(points[rows])
+        return normal
 
-    def _in_sheet(self, points: Array) -> Bools:
+    def _surface(self, k: int) -> SheetSurface:
+        surface = self._sheets[k].surface
+        assert isinstance(surface, SheetSurface)
+        return surface
+
+    def _rise(self, which: Ints, points: Array, normal: Array | None = None) -> Array:
+        """The gradient h (k, 3) of the radius along the sheets."""
+        found = self._queries.nearest(points)
+        gradient = (points - found.foot) / np.maximum(found.distance, 1e-300)[:, None]
+        across = self._normal(which, points) if normal is None else normal
+        return np.asarray(gradient - dot(gradient, across)[:, None] * across)
+
+    def _in_sheet(self, which: Ints, points: Array, radius: Array) -> Bools:
         """Whether the two sites of the sheet are nearest on its two sides, and none nearer."""
-        step = ACROSS * self.queries.size * self.surface.normal(points)
-        one, other = (self.queries.nearest(points + side * step) for side in (-1, 1))
-        low, high = sorted(self.sites)
-        good = (np.minimum(one.site, other.site) == low) & (
-            np.maximum(one.site, other.site) == high
-        )
-        reach = self.queries.depth(points)[1] + SLACK * self.queries.size
+        step = ACROSS * self._size * self._normal(which, points)
+        one, other = (self._queries.nearest(points + side * step) for side in (-1, 1))
+        found = np.sort([one.site, other.site], axis=0).T
+        good = (found == self._sites[which]).all(axis=1)
+        own = self._sites[which]
+        apart = norm(one.foot - other.foot) > APART * radius
+        good &= (own[:, 0] != own[:, 1]) | apart  # an edge's sheet with itself ends at a rim
+        reach = radius + SLACK * self._size
         good &= (norm(points - one.foot) <= reach) & (norm(points - other.foot) <= reach)
         return np.asarray(good)
 
-    def _climb(self, points: Array, reach: Array, sign: float) -> Array:
-        """Radii of the extrema (k,) to which one comes from points of the sheet.
+    def _climb(self, which: Ints, points: Array, reach: Array, sign: float, best: Array) -> None:
+        """Raise what is known of each sheet to the extrema to which one comes from some points.
 
         Args:
-            points: (m, 3) starts, on the surface.
+            which: (m,) the sheets of the points.
+            points: (m, 3) starts, close to the sheets.
             reach: (m,) the longest first steps.
             sign: +1 up, -1 down.
+            best: greatest value of `sign` times the radius for each sheet; brought up to date.
         """
-        kept = self._in_sheet(points)
-        points, reach = points[kept], reach[kept]
-        radius = sign * self.queries.depth(points)[1]
-        best = radius.copy()
-        at = np.arange(len(points))
+        points, good = self._on(which, points)
+        value = sign * self._queries.depth(points)[1]
+        good &= self._in_sheet(which, points, sign * value)
+        which, points, reach, value = which[good], points[good], reach[good], value[good]
         for _ in range(STEPS):
-            if not len(at):
-                break
-            step = self._newton(points[at], sign)
+            np.maximum.at(best, which, value)
+            if not len(which):
+                return
+            step, gain = self._newton(which, points, sign)
             length = norm(step)
-            scale = np.minimum(1.0, reach[at] / np.maximum(length, 1e-300))
-            tried, good = self._on(points[at] + scale[:, None] * step)
-            value = sign * self.queries.depth(tried)[1]
-            good &= self._in_sheet(tried) & (value >= best[at])
-            points[at[good]], best[at[good]] = tried[good], value[good]
-            reach[at[~good]] = (scale * length)[~good] / 4
-            at = at[(scale * length > AT_REST * self.queries.size)]
-        return np.asarray(sign * best)
+            hope = value + HOPELESS * gain > best[which] + GAIN * self._size
+            kept = hope & (gain > GAIN * self._size) & (reach > SPACING * self._size)
+            which, points, reach, value = which[kept], points[kept], reach[kept], value[kept]
+            step, length = step[kept], length[kept]
+            scale = np.minimum(1.0, reach / np.maximum(length, 1e-300))
+            tried, good = self._on(which, points + scale[:, None] * step)
+            new = sign * self._queries.depth(tried)[1]
+            good &= new >= value
+            good &= self._in_sheet(which, tried, sign * new)
+            points[good], value[good] = tried[good], new[good]
+            reach[~good] = (scale * length)[~good] / 4
+        np.maximum.at(best, which, value)
 
-    def _newton(self, points: Array, sign: float) -> Array:
-        """Steps (k, 3) towards an extremum, uphill for `sign` +1 and downhill for -1."""
-        normal = self.surface.normal(points)
+    def _newton(self, which: Ints, points: Array, sign: float) -> tuple[Array, Array]:
+        """Steps (k, 3) towards extrema, uphill for `sign` +1, and the gains (k,) to expect."""
+        normal = self._normal(which, points)
         one = cross(normal, np.eye(3)[np.argmin(np.abs(normal), axis=1)])
         one /= norm(one)[:, None]
         axes = np.stack([one, cross(normal, one)], axis=1)
-        spacing = SPACING * self.queries.size
-        rise = sign * np.einsum("kij,kj->ki", axes, self._rise(points))
-        hessian = np.empty((len(points), 2, 2))
-        for k in (0, 1):
-            ahead = sign * self._rise(self._on(points + spacing * axes[:, k])[0])
-            hessian[:, :, k] = (np.einsum("kij,kj->ki", axes, ahead) - rise) / spacing
+        spacing = SPACING * self._size
+        rise = sign * np.einsum("kij,kj->ki", axes, self._rise(which, points, normal))
+        ahead, _ = self._on(np.repeat(which, 2), (points[:, None] + spacing * axes).reshape(-1, 3))
+        beyond = sign * self._rise(np.repeat(which, 2), ahead).reshape(-1, 2, 3)
+        hessian = (np.einsum("kij,klj->kil", axes, beyond) - rise[:, :, None]) / spacing
         hessian = (hessian + hessian.transpose(0, 2, 1)) / 2
         bend, ways = np.linalg.eigh(hessian)
-        part = np.einsum("kji,kj->ki", ways, rise) / np.maximum(
-            np.abs(bend), CURVED / self.queries.size
-        )
-        return np.asarray(
-            np.einsum("kij,kj->ki", axes.transpose(0, 2, 1), np.einsum("kij,kj->ki", ways, part))
-        )
+        slope = np.einsum("kji,kj->ki", ways, rise)
+        part = slope / np.maximum(np.abs(bend), CURVED / self._size)
+        step = np.einsum("kji,kj->ki", axes, np.einsum("kij,kj->ki", ways, part))
+        return np.asarray(step), np.asarray((slope * part).sum(axis=1))
 
 
-def range_along(queries: RegionQueries, curve: CurveElement, points: Array, radius: Array) -> Range:
-    """Least and greatest radius along a polyline of exact vertices.
-
-    Args:
-        queries: of the region.
-        curve: that the vertices lie on.
-        points: (n, 3).
-        radius: (n,).
-    """
-    least, most = float(radius.min()), float(radius.max())
-    if most == 0:
-        return least, most
-    first, way = points[:-1], np.diff(points, axis=0)
-
-    def at(rows: Ints, s: Array) -> Array:
-        return queries.depth(curve.place(first[rows] + s[:, None] * way[rows]))[1]
-
-    every = np.arange(len(first))
-    starts = at(every, np.full(len(every), NEAR_END)) - radius[:-1]
-    ends = at(every, np.full(len(every), 1 - NEAR_END)) - radius[1:]
-    for sign in (1.0, -1.0):
-        turning = (sign * starts > NOISE * queries.size) & (sign * ends > NOISE * queries.size)
-        rows = np.flatnonzero(turning)
-        if len(rows):
-            found = _golden(at, rows, sign)
-            least, most = min(least, float(found.min())), max(most, float(found.max()))
-    return least, most
-
-
-def _golden(at: Callable[[Ints, Array], Array], rows: Ints, sign: float) -> Array:
-    """Extrema (k,) of functions of s from 0 to 1, by golden sections."""
-    low, high = np.zeros(len(rows)), np.ones(len(rows))
-    one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    f, g = sign * at(rows, one), sign * at(rows, other)
-    for _ in range(SECTIONS):
-        left = f > g
-        low, high = np.where(left, low, one), np.where(left, other, high)
-        new = np.where(left, high - GOLDEN * (high - low), low + GOLDEN * (high - low))
-        value = sign * at(rows, new)
-        one, other = np.where(left, new, other), np.where(left, one, new)
-        f, g = np.where(left, value, g), np.where(left, f, value)
-    return np.asarray(sign * np.maximum(f, g))
+def _rows_of(which: Ints, members: Sequence[int]) -> tuple[Ints, Ints]:
+    """Rows that belong to some sheets (ascending), and to which of them."""
+    local = np.searchsorted(members, which)
+    local[local == len(members)] = 0
+    rows = np.flatnonzero(np.asarray(members)[local] == which)
+    return rows, local[rows]

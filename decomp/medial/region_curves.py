@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -25,6 +26,9 @@ from decomp.medial.touching import touching_points
 from decomp.sites import SiteIndex
 from decomp.tracing.graph import seam_graph
 from decomp.vectors import Array
+
+SAME = 1e-9
+"""Parameters that differ by less than this part of an edge are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +60,28 @@ class RegionCurves:
     def points(self) -> list[ReflexivePart]:
         """The reflexive points, in the order of their nodes after the vertices."""
         return [part for part in self.reflexive if part.dimension == 0]
+
+    def turns(self, number: int) -> list[float]:
+        """Where, over a normal curve, the centres turn back on a reflexive locus: parameters."""
+        curve = self.over[number]
+        runs = [run for run in self.runs if run.over == number and not run.resting]
+        runs.sort(key=lambda run: float(run.s[0]))
+        span = curve.end - curve.start
+        found = [
+            float(after.s[0])
+            for run, after in pairwise(runs)
+            if abs(run.s[-1] - after.s[0]) <= SAME * span
+        ]
+        if curve.closed and len(runs) > 1 and runs[-1].s[-1] - span >= runs[0].s[0] - SAME * span:
+            found.insert(0, float(runs[0].s[0]))
+        return found
+
+    def turning_feet(self) -> list[Array]:
+        """The points (3,) of edges over which centres turn back."""
+        found: list[Array] = []
+        for number, curve in enumerate(self.over):
+            found.extend(curve.feet(np.array(self.turns(number))))
+        return found
 
 
 def region_curves(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
@@ -52,6 +52,45 @@ def owners(curves: RegionCurves) -> dict[int, int]:
     return owner
 
 
+@dataclass(frozen=True, eq=False)
+class _Strip:
+    """A part of a trim surface.
+
+    Args:
+        curve: of its normals.
+        lower, upper: vertices of its borders, along the edge and the trim.
+        lower_s, upper_s: their parameters.
+    """
+
+    curve: NormalCurve
+    lower: Ints
+    lower_s: Array
+    upper: Ints
+    upper_s: Array
+
+
+class _Centres:
+    """The centres (k, 3) of a run along a reflexive locus, and what lies between them."""
+
+    def __init__(self, points: Array, slack: float) -> None:
+        self._points, self._slack = points, slack
+        self._tree = cKDTree(points)
+        self._reach = float(norm(np.diff(points, axis=0)).max())
+
+    def nearest(self, points: Array) -> Ints:
+        """Which centre is nearest to each of some points."""
+        return np.asarray(self._tree.query(points)[1], dtype=np.int64)
+
+    def hold(self, points: Array) -> bool:
+        """Whether all of some points of the locus are between the first and the last centre."""
+        gaps, rows = self._tree.query(points)
+        last = len(self._points) - 1
+        beside = np.where(rows == 0, 1, np.where(rows == last, last - 1, rows))
+        inwards = self._points[beside] - self._points[rows]
+        past = dot(points - self._points[rows], inwards) < 0
+        return bool(((gaps <= self._reach) & (~past | (gaps <= self._slack))).all())
+
+
 class TrimMaker:
     """Makes the trim surfaces between the cells of different faces."""
 
@@ -73,14 +112,48 @@ class TrimMaker:
                 continue
             upper, upper_s = self._upper(number, curve)
             lower = self._lower(curve)
-            triangles = self._strip(curve, lower, upper, upper_s)
-            if not curve.closed:
-                for k in (0, -1):
-                    a, b = int(lower[k]), int(upper[k])
-                    self._rulings.add((min(a, b), max(a, b)))
-            if len(triangles):
-                found.append(self._patch(curve, triangles, upper, upper_s))
+            for strip_ in self._strips(number, lower, upper, upper_s):
+                triangles = self._strip(strip_)
+                if len(triangles):
+                    found.append(self._patch(strip_, triangles))
         return found
+
+    def _strips(self, number: int, lower: Ints, upper: Ints, upper_s: Array) -> list[_Strip]:
+        """The strips over a normal curve, cut at the normals over which centres turn back.
+
+        There the surface folds along its upper border; each strip is on one side of the fold.
+        """
+        curve = self._curves.over[number]
+        turns = self._curves.turns(number)
+        if not turns:
+            if not curve.closed:
+                self._end(lower[0], upper[0])
+                self._end(lower[-1], upper[-1])
+            lower_s = self._along(curve, self._points[lower]) if len(lower) > 1 else np.zeros(1)
+            return [_Strip(curve, lower, lower_s, upper, upper_s)]
+        lower_s = self._along(curve, self._points[lower])
+        if lower_s[-1] < lower_s[0]:
+            lower, lower_s = lower[::-1], lower_s[::-1]
+        stops = [curve.start, *turns, curve.end]
+        if curve.closed:
+            period = curve.end - curve.start
+            lower, lower_s = _from(lower, lower_s, turns[0], period)
+            upper, upper_s = _from(upper, upper_s, turns[0], period)
+            stops = [*turns, turns[0] + period]
+        below = [int(np.argmin(np.abs(lower_s - s))) for s in stops]
+        above = [int(np.argmin(np.abs(upper_s - s))) for s in stops]
+        found = []
+        for k, (first, last) in enumerate(itertools.pairwise(stops)):
+            one, two = slice(below[k], below[k + 1] + 1), slice(above[k], above[k + 1] + 1)
+            part = replace(curve, start=first, end=last, closed=False)
+            found.append(_Strip(part, lower[one], lower_s[one], upper[two], upper_s[two]))
+            self._end(lower[below[k]], upper[above[k]])
+            self._end(lower[below[k + 1]], upper[above[k + 1]])
+        return found
+
+    def _end(self, a: int, b: int) -> None:
+        """Note the ruling in which a strip ends."""
+        self._rulings.add((min(int(a), int(b)), max(int(a), int(b))))
 
     def rulings(self) -> list[Line]:
         """The normals in which the surfaces end, as far as they are no other lines."""
@@ -131,27 +204,26 @@ class TrimMaker:
         ends = [self._vertex_at(run.points[k]) for k in (0, -1)]
         if run.resting:
             return np.array(ends), run.s[[0, -1]]
-        middle = run.points[len(run.points) // 2]
-        tree = cKDTree(run.points)
-        reach = float(norm(np.diff(run.points, axis=0)).max())
+        centres = _Centres(run.points, 1e-6 * self._size)
         line = [ends[0]]
         while line[-1] != ends[1]:
-            step = self._next_on_locus(line, tree, reach)
+            step = self._next_on_locus(line, centres)
             if step is None:
-                raise GeometryError(f"no reflexive curve leads past {place(middle)}")
+                middle = place(run.points[len(run.points) // 2])
+                raise GeometryError(f"no reflexive curve leads past {middle}")
             line.extend(step)
         vertices = np.array(line, dtype=np.int64)
-        return vertices, run.s[tree.query(self._points[vertices])[1]]
+        return vertices, run.s[centres.nearest(self._points[vertices])]
 
-    def _next_on_locus(self, line: list[int], tree: cKDTree, reach: float) -> list[int] | None:
-        """The vertices of the reflexive piece that goes on from a polyline beside known centres."""
+    def _next_on_locus(self, line: list[int], centres: _Centres) -> list[int] | None:
+        """The vertices of the reflexive piece that goes on from a polyline along known centres."""
         for piece, vertices in zip(self._curves.pieces, self._lines, strict=True):
             if piece.kind is not LineKind.REFLEXIVE:
                 continue
-            if tree.query(piece.middle)[0] > reach:
-                continue
             for way in (vertices, vertices[::-1]):
-                if way[0] == line[-1] and (len(line) < 2 or way[1] != line[-2]):
+                if way[0] != line[-1] or (len(line) > 1 and way[1] == line[-2]):
+                    continue
+                if centres.hold(np.stack([piece.middle, self._points[way[-1]]])):
                     return [int(v) for v in way[1:]]
         return None
 
@@ -171,13 +243,10 @@ class TrimMaker:
             s[1:] -= period * np.cumsum(np.round(turn / period))
         return s
 
-    def _strip(self, curve: NormalCurve, lower: Ints, upper: Ints, upper_s: Array) -> Ints:
-        if len(lower) == 1:
-            return strip(lower, np.zeros(1), upper, upper_s)
-        lower_s = self._along(curve, self._points[lower])
-        if curve.closed:
-            return self._ring(curve, lower, lower_s, upper, upper_s)
-        return strip(lower, lower_s, upper, upper_s)
+    def _strip(self, given: _Strip) -> Ints:
+        if given.curve.closed and len(given.lower) > 1:
+            return self._ring(given.curve, given.lower, given.lower_s, given.upper, given.upper_s)
+        return strip(given.lower, given.lower_s, given.upper, given.upper_s)
 
     def _ring(
         self, curve: NormalCurve, lower: Ints, lower_s: Array, upper: Ints, upper_s: Array
@@ -194,10 +263,9 @@ class TrimMaker:
         body, s = body[order], s[order]
         return strip(lower, lower_s, np.append(body, body[0]), np.append(s, s[0] + period))
 
-    def _patch(
-        self, curve: NormalCurve, triangles: Ints, upper: Ints, upper_s: Array
-    ) -> tuple[TrimSurface, Patch]:
+    def _patch(self, given: _Strip, triangles: Ints) -> tuple[TrimSurface, Patch]:
         """Orient: normals point from the higher-dimensional site's side to the other's."""
+        curve, upper, upper_s = given.curve, given.upper, given.upper_s
         near, far = curve.sites[1], curve.sites[0]
         s = np.linspace(curve.start, curve.end, 257)
         height = np.interp(s, upper_s, norm(self._points[upper] - curve.feet(upper_s)))
@@ -237,6 +305,15 @@ class TrimMaker:
         second = incidence.sites[curve.sites[1]].index
         edge = next(k for k, e in enumerate(incidence.boundary.edges) if e is curve.edge)
         return _out_of_face(incidence, second, edge, foot)
+
+
+def _from(loop: Ints, s: Array, start: float, period: float) -> tuple[Ints, Array]:
+    """A closed polyline that starts at its vertex of a given parameter."""
+    slack = 1e-6 * period
+    s = start - slack + np.mod(s[:-1] - start + slack, period)
+    order = np.argsort(s, kind="stable")
+    turned, s = loop[:-1][order], s[order]
+    return np.append(turned, turned[0]), np.append(s, s[0] + period)
 
 
 def _out_of_face(incidence: Incidence, face: int, edge: int, foot: Array) -> Array:

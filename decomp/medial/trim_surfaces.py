@@ -16,6 +16,8 @@ from decomp.vectors import Array, Ints, cross, dot, norm
 
 RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995)
 """Parts of the normals' lengths at which points are known."""
+CLOSE = 16
+"""So many known points are looked at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,14 +37,16 @@ class RuledSurface:
     sense: float
     s: Array
     height: Array
-    _known: tuple[cKDTree, Array] = field(init=False)
+    _tree: cKDTree = field(init=False)
+    _feet: Array = field(init=False)
+    _ways: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        s = np.tile(self.s, len(RUNGS))
-        up = np.concatenate([rung * self.height for rung in RUNGS])
-        feet = self.curve.feet(s)
-        points = feet + up[:, None] * self.curve.directions(s)
-        object.__setattr__(self, "_known", (cKDTree(points), s))
+        feet, ways = self.curve.feet(self.s), self.curve.directions(self.s)
+        known = [feet + (rung * self.height)[:, None] * ways for rung in RUNGS]
+        object.__setattr__(self, "_tree", cKDTree(np.concatenate(known)))
+        object.__setattr__(self, "_feet", feet)
+        object.__setattr__(self, "_ways", ways)
 
     def place(self, points: Array) -> Array:
         """Points (k, 3) moved to the normal through their foot."""
@@ -58,8 +62,16 @@ class RuledSurface:
         return np.asarray(across / np.where(length > 0, length, 1.0)[:, None])
 
     def _near(self, points: Array) -> Array:
-        tree, s = self._known
-        return np.asarray(s[tree.query(points)[1]])
+        """Parameters (k,) of the normals closest to points, of those through known points close by.
+
+        Close to where normals of several parts of the edge meet, the closest known point may be
+        on a normal of another part.
+        """
+        rows = self._tree.query(points, k=min(CLOSE, self._tree.n))[1] % len(self.s)
+        away = points[:, None] - self._feet[rows]
+        up = np.clip(dot(away, self._ways[rows]), 0.0, self.height[rows])
+        off = norm(away - up[..., None] * self._ways[rows])
+        return np.asarray(self.s[rows[np.arange(len(points)), np.argmin(off, axis=1)]])
 
 
 def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:

@@ -166,6 +166,7 @@ class TrimScanner:
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
             own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
+            own[a:b] |= self._past_locus(curve.sites, feet[a:b], balls.radius[a:b])
         away = balls.centre - hits
         length = norm(away)
         found: list[_Sample] = []
@@ -179,6 +180,11 @@ class TrimScanner:
                 far = incidence.touched(site, hits[k], away[k] / length[k])
             found.append(_Sample(s, far, hits[k], float(balls.radius[k])))
         return [found[a:b] for a, b in pairwise(stops)]
+
+    def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
+        """Whether balls reach a locus, even where they come to rest a little late."""
+        boundary, sites = self._incidence.boundary, self._incidence.sites
+        return loci.past_locus(boundary, sites, which, feet, radius, LOCUS)
 
     def _alone(self, site: Ints, feet: Array) -> Bools:
         """Whether feet (k, 3) on sites (k,) are on faces and clearly on none of their bends."""

@@ -20,7 +20,7 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.tetra.check_cells import KnownCells, known_cells
-from decomp.tetra.check_names import Names, name_shortcomings, resolved
+from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
@@ -90,9 +90,10 @@ def check(
     tell("looking at elements and faces", 0.1)
     lines = list(structural_shortcomings(read))
     cells = None
-    if names.cells:
+    if names.cells or names.sheets:
         found = skeleton(geometry, progress=lambda what, done: tell(what, 0.2 + 0.6 * done))
-        cells = known_cells(found, set(names.cells.values()))
+        given = {*names.cells.values(), *(n for s in names.sheets.values() for n in sides(s))}
+        cells = known_cells(found, given)
     tell("comparing with the model", 0.8)
     lines += name_shortcomings(names, geometry, cells.names if cells else [])
     lines += _bare_interfaces(read, names, geometry)
@@ -164,9 +165,9 @@ def _surfaces(
 ) -> tuple[float, int, list[str]]:
     """Largest distance of boundary nodes from their surfaces, how many are off, shortcomings."""
     off = np.zeros(len(mesh.points))
-    for tag, sides in names.faces.items():
+    for tag, owners in names.faces.items():
         nodes = np.unique(mesh.triangles[mesh.triangle_tags == tag])
-        for region, face in sides:
+        for region, face in owners:
             boundary = geometry.regions[region]
             carrier = boundary.carriers[boundary.faces[face].carrier]
             far = np.abs(carrier.signed_distance(mesh.points[nodes]))

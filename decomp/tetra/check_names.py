@@ -85,12 +85,16 @@ def name_shortcomings(names: Names, geometry: Geometry, cells: Sequence[str]) ->
     )
 
 
-def _is_sheet(name: str, cells: Sequence[str]) -> bool:
-    """Whether a name is `region/one|two` of two cells."""
-    known = set(cells)
+def sides(name: str) -> tuple[str, ...]:
+    """The names of the two cells at a sheet `region/one|two`; none if it is named otherwise."""
     region, slash, rest = name.partition("/")
     one, bar, two = rest.partition("|")
-    return bool(slash and bar) and {f"{region}/{one}", f"{region}/{two}"} <= known
+    return (f"{region}/{one}", f"{region}/{two}") if slash and bar else ()
+
+
+def _is_sheet(name: str, cells: Sequence[str]) -> bool:
+    """Whether a name is that of a sheet between two of some cells."""
+    return bool(sides(name)) and set(sides(name)) <= set(cells)
 
 
 def _listed(what: str, names: Sequence[str]) -> Iterator[str]:

@@ -15,17 +15,21 @@ FACING = -0.5
 """Feet face each other where the cosine between their directions is below this."""
 SAMPLED = 12.0
 """Features are looked for at points this part of a region's diagonal apart."""
-USUAL = 2e-3
+USUAL = 5e-3
 """Epsilon relative to the smallest region's diagonal, where nothing asks for less."""
+OF_LENGTH = 0.1
+"""Epsilon relative to the shortest edges wanted. TetWild tests triangles by samples that are about
+epsilon apart, so its time goes with the square of their ratio."""
 OF_THICKNESS, OF_EDGE = 0.1, 0.12
 """Epsilon is at most these parts of the least thickness or gap, and of the shortest edge."""
 LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
 
-def usual_epsilon(geometry: Geometry) -> float:
-    """Epsilon as far as it is known without the skeleton."""
-    epsilon = USUAL * min(region.diagonal for region in geometry.regions)
+def usual_epsilon(geometry: Geometry, length: float) -> float:
+    """Epsilon as far as it is known without the skeleton, for edges of a length."""
+    smallest = min(region.diagonal for region in geometry.regions)
+    epsilon = min(USUAL * smallest, OF_LENGTH * length)
     edges = [edge.length for region in geometry.regions for edge in region.edges]
     return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
 

@@ -85,6 +85,7 @@ class Report:
         regions, cells, surfaces: in the order of their groups.
         quality: of the tetrahedra.
         unprojected: nodes that are not on their exact surfaces.
+        bridging: tetrahedra with all four corners on the boundary of a region.
         stages: what was done, and for how many seconds.
     """
 
@@ -98,6 +99,7 @@ class Report:
     surfaces: tuple[Surface, ...]
     quality: Quality
     unprojected: int
+    bridging: int
     stages: tuple[tuple[str, float], ...]
 
 
@@ -143,8 +145,17 @@ def report(
         surfaces,
         _quality(mesh),
         len(mesh.unprojected),
+        _bridging(mesh),
         tuple(stages),
     )
+
+
+def _bridging(mesh: TetMesh) -> int:
+    """How many tetrahedra have all four corners on faces or interfaces."""
+    outer = [g.tag for g in mesh.groups if g.kind in (GroupKind.FACE, GroupKind.INTERFACE)]
+    on = np.zeros(len(mesh.points), dtype=np.bool_)
+    on[mesh.triangles[np.isin(mesh.triangle_tags, outer)]] = True
+    return int(on[mesh.tets[:, :4]].all(axis=1).sum())
 
 
 def _volume(group: Group, tets: int, content: float) -> Volume:
@@ -230,7 +241,8 @@ def as_text(found: Report) -> list[str]:
         f"degrees, mean of the least {quality.mean_least_dihedral:.1f}",
         f"  radius ratios from {quality.least_radius_ratio:.3f}, "
         f"mean {quality.mean_radius_ratio:.3f}; {quality.inverted} inverted",
-        f"  nodes left off their exact surfaces: {found.unprojected}",
+        f"  nodes left off their exact surfaces: {found.unprojected}; tetrahedra with all corners "
+        f"on the boundary: {found.bridging}",
     ]
     lines += [
         f"  cell {cell.name}: {', '.join(cell.faces)}"

@@ -166,7 +166,10 @@ def curvatures(carrier: Carrier, points: Array) -> tuple[Array, Array]:
     first /= norm(first)[:, None]
     second = cross(normal, first)
     slant = (first + second) / sqrt(2), (first - second) / sqrt(2)
-    along = [carrier.normal_curvature(q, way) for way in (first, second, *slant)]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along = [carrier.normal_curvature(q, way) for way in (first, second, *slant)]
+    # at a cone's apex there is none: it counts as flat there
+    along = [np.where(np.isfinite(k), k, 0.0) for k in along]
     mean = (along[0] + along[1]) / 2
     half = np.hypot((along[0] - along[1]) / 2, (along[2] - along[3]) / 2)
     return np.asarray(mean - half), np.asarray(mean + half)

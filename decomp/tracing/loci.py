@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
-from decomp.carriers.reflexive import reflexive_gap
+from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.sites.site import Site, SiteKind
 from decomp.vectors import Array, Bools
 
@@ -46,3 +46,29 @@ def on_locus(
     """
     gap = locus_gap(boundary, sites, which, points)
     return np.asarray(gap <= within * boundary.diagonal)
+
+
+def past_locus(
+    boundary: RegionBoundary,
+    sites: Sequence[Site],
+    which: Sequence[int],
+    feet: Array,
+    radius: Array,
+    within: float,
+) -> Bools:
+    """Whether balls at feet (k, 3) reach the centres of curvature of one of some faces' carriers.
+
+    No ball is larger: along an edge a face's carrier is on one side at least. But one over a point
+    where the edge runs along the carrier's strongest curvature comes to rest a little late.
+    """
+    result = np.zeros(len(feet), dtype=np.bool_)
+    for number in which:
+        site = sites[number]
+        if site.kind is not SiteKind.FACE:
+            continue
+        face = boundary.faces[site.index]
+        carrier = boundary.carriers[face.carrier]
+        if np.isfinite(reflexive_gap(carrier, face.outward, feet[:1])).all():
+            most = inner_radius(carrier, face.outward, feet)
+            result |= (most > 0) & (radius >= (1 - within) * most)
+    return result

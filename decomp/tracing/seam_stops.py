@@ -90,19 +90,20 @@ class SeamStops:
                 if found is not None:
                     base, state, _ = found
                     return stretch.cut(base, state, self._size), state
-        return count, last
+        return self.merging(stretch, count) or (count, last)
 
     def merging(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
-        """Where two contacts on one site run together, near the last of `count` rows."""
+        """Where two contacts run together inside a site, near the last of `count` rows.
+
+        None if they do not.
+        """
         rows = [stretch.state(k) for k in range(count)]
-        one, other = nearest_pair(rows[-1])
-        if stretch.sites[one] != stretch.sites[other]:
-            return None
-        found = merging_feet(self._points, rows, (one, other))
+        found = merging_feet(self._points, rows, nearest_pair(rows[-1]))
         if found is None or not self._points.holds(found[1][-1]):
             return None
         kept, ahead = found
-        for state in ahead:
+        room = len(stretch.track.points) - kept
+        for state in ahead[-room:]:
             stretch.put(kept, state)
             kept += 1
         return kept, ahead[-1]

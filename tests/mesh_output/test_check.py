@@ -174,8 +174,14 @@ def test_middle_nodes_are_shared() -> None:
 
 
 def test_whole_regions() -> None:
-    """Without cells no skeleton is needed; sheets need not be tagged."""
+    """Without cells no skeleton is needed; sheets may be tagged all the same."""
     mesh = cube()
+    sheets = replace(
+        mesh,
+        tet_tags=np.ones_like(mesh.tet_tags),
+        groups=(Group(GroupKind.REGION, 1, "cube", ("cube",)), *mesh.groups[6:]),
+    )
+    assert check(CUBE, sheets).shortcomings == ()
     kept = mesh.triangle_tags <= 6
     surfaces = [g for g in mesh.groups if g.kind is GroupKind.FACE]
     plain = replace(

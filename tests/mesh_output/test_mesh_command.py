@@ -182,6 +182,58 @@ def _children(parent: int, patience: float) -> Iterator[int]:
     raise AssertionError("no child was started")
 
 
+WORKERS = {
+    "hangs": ("import time; time.sleep(60)", "did not end within 0.5 s"),
+    "is killed": ("import os; os.kill(os.getpid(), 9)", "was ended by SIGKILL"),
+    "gives nothing": ("", "ended without a result"),
+    "fails": ("raise ValueError('no')", "failed with exit code 1: ValueError: no"),
+}
+
+
+@pytest.mark.parametrize("fault", WORKERS)
+def test_tetwild_fails_twice(
+    fault: str,
+    model: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """The message tells both failures, and with which settings; nothing is left behind."""
+    text, message = WORKERS[fault]
+    (model.parent / "two").mkdir()
+    worker = model.parent / "two" / "worker.py"
+    worker.write_text(text)
+    monkeypatch.setattr("decomp.tetra.child.WORKER", worker)
+    assert main(["mesh", "two.geo", "--timeout", "0.5"]) == 4
+    errors = capsys.readouterr().err
+    assert errors.count("\n") == 1
+    assert errors.startswith("decomp: error: ")
+    assert errors.count(message) == 2
+    assert errors.count("epsilon") == 2
+    assert sorted(path.name for path in model.parent.iterdir()) == ["two", "two.geo"]
+
+
+def test_tetwild_fails_once(
+    model: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A second try with other settings succeeds, and is told of."""
+    from decomp.tetra.child import WORKER
+
+    (model.parent / "two").mkdir()
+    worker = model.parent / "two" / "worker.py"
+    worker.write_text(
+        "import pathlib, runpy, sys\n"
+        "mark = pathlib.Path(__file__).with_name('mark')\n"
+        "if not mark.exists():\n"
+        "    mark.touch()\n"
+        "    sys.exit(7)\n"
+        f"runpy.run_path({str(WORKER)!r}, run_name='__main__')\n"
+    )
+    monkeypatch.setattr("decomp.tetra.child.WORKER", worker)
+    assert main(["mesh", "two.geo", "--size", "0.5"]) == 0
+    assert "failed with exit code 7" in capsys.readouterr().out
+    assert check(model, "two.msh").shortcomings == ()
+
+
 def test_a_full_disk(tmp_path: Path) -> None:
     """A limit on the size of files fails a write half-way, as a full disk does."""
     path = tmp_path / "bar.msh"

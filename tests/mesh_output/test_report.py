@@ -55,6 +55,16 @@ def test_curved_volumes() -> None:
     assert report(cube()).quality.inverted == 0
 
 
+def test_corners_on_the_boundary() -> None:
+    """All but those that touch one of the two nodes inside."""
+    assert report(cube()).bridging == 0
+    mesh = bar(1)
+    middle = np.flatnonzero((np.abs(mesh.points[:, 1:] - 0.5) < 1e-9).all(axis=1))
+    inside = middle[(mesh.points[middle, 0] % 1) != 0]
+    touching = np.isin(mesh.tets, inside).any(axis=1).sum()
+    assert report(mesh).bridging == len(mesh.tets) - touching
+
+
 def test_stages(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = iter([0.0, 1.0, 3.0, 4.0, 10.0, 10.5])
     monkeypatch.setattr("decomp.cli.stages.time.perf_counter", lambda: next(clock))

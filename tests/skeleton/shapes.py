@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from decomp.csg.primitives import Block, Cylinder, InfiniteCylinder
+from decomp.csg.primitives import Block, Cone, Cylinder, InfiniteCylinder, Sphere, Torus
 from decomp.csg.solid import Solid
 
 
@@ -27,6 +27,22 @@ def walled() -> Solid:
     return Block((0, 0, 0), (4, 3, 2), name="block") - slot
 
 
+def branched(branch: Solid) -> Solid:
+    """A pipe along x with something that leaves it."""
+    return Cylinder((-5, 0, 0), (5, 0, 0), 1, name="run") | branch
+
+
+def bulge() -> Solid:
+    """A bar with a ball on it whose centre is beside the bar's axis."""
+    return Cylinder((-2, 0, 0), (2, 0, 0), 0.5, name="bar") | Sphere((0, 0.2, 0), 0.8, name="ball")
+
+
+def spoke() -> Solid:
+    return Torus((0, 0, 0), (0, 0, 1), 2, 0.5, name="rim") | Cylinder(
+        (0, 0, 0), (2, 0, 0), 0.3, name="spoke"
+    )
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -37,4 +53,9 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "half angle": lambda: angle(3, 0.5),
     "washer": washer,
     "walled block": walled,
+    "oblique tee": lambda: branched(Cylinder((0, 0, 0), (2, 0, 4), 0.5, name="branch")),
+    "wye": lambda: branched(Cylinder((0, 0, 0), (3, 0, 3), 1, name="branch")),
+    "tapered tee": lambda: branched(Cone((0, 0, 0), 0.6, (0, 0, 3), 0.3, name="branch")),
+    "bulge": bulge,
+    "spoke": spoke,
 }

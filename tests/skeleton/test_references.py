@@ -331,7 +331,9 @@ def test_unequal_tee() -> None:
     """The edge between the run and its thinner branch has a sheet with itself: the plane y = 0."""
     tee = region_of("unequal tee")
     edge = "branch.side|run.side"
-    assert tee.sheets(edge, edge)
+    (own,) = tee.sheets(edge, edge)
+    # thinnest where the ball's foot is the edge's highest point, between a rim's ends
+    assert own.radius == pytest.approx((0.6 / sqrt(1.36), 1), abs=1e-12)
     assert tee.on_sheets(edge, edge)[:, 1] == pytest.approx(0, abs=1e-12)
 
 
