@@ -62,30 +62,21 @@ def sheet_rows(
     skeleton: Skeleton, region: RegionSkeleton, digits: int, first: int = 0
 ) -> list[dict[str, Any]]:
     """Each sheet of a region as JSON values; lengths in the model's units, angles in radians."""
-    from decomp.medial.sheet_kinds import sheet_kinds
     from decomp.output.labels import site_labels
+    from decomp.output.surfaces import surface_values
 
     labels = site_labels(skeleton.sites)
-    found = []
-    for k, (sheet, kind) in enumerate(
-        zip(region.sheets, sheet_kinds(skeleton, region), strict=True)
-    ):
-        row: dict[str, Any] = {
+    return [
+        {
             "id": first + k,
             "sites": [labels[site] for site in sheet.sites],
             "parity": None if sheet.parity is None else sheet.parity.value,
-            "kind": kind.kind.value,
-            "degree": kind.degree,
-            "equation": kind.equation(digits),
             "area": sheet.area,
             "radius": list(sheet.radius),
+            **surface_values(skeleton, region, sheet, digits),
         }
-        if kind.shape is not None:
-            row["origin"] = kind.shape.origin.tolist()
-            row["axes"] = kind.shape.axes.tolist()
-            row["parameters"] = {name: float(v) for name, v in kind.shape.parameters.items()}
-        found.append(row)
-    return found
+        for k, sheet in enumerate(region.sheets)
+    ]
 
 
 def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:

@@ -3,22 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
+from decomp.parity import Parity as Parity
 from decomp.sites.site import Site
 from decomp.vectors import Array
-
-
-class Parity(Enum):
-    """On which side of its two carriers a sheet lies.
-
-    EVEN: inside both or outside both; ODD: inside one and outside the other.
-    """
-
-    EVEN = "even"
-    ODD = "odd"
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from typing import Any
 from decomp.medial.result import Reflexive, RegionSkeleton, Skeleton
 from decomp.output.elements import first_seams, first_sheets
 from decomp.output.labels import site_labels
+from decomp.output.surfaces import surface_values
 
 
 def encoded(skeleton: Skeleton) -> bytes:
@@ -53,6 +54,7 @@ def _region(
                 "parity": None if sheet.parity is None else sheet.parity.value,
                 "area": sheet.area,
                 "radius": list(sheet.radius),
+                "surface": surface_values(skeleton, region, sheet),
             }
             for k, sheet in enumerate(region.sheets)
         ],

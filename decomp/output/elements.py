@@ -13,11 +13,14 @@ import numpy as np
 from decomp.cells.surface import used_points
 from decomp.complex.model import LineKind
 from decomp.medial.result import Parity, RegionSkeleton, Skeleton, SkeletonLine
+from decomp.medial.sheet_kinds import sheet_kind
 from decomp.vectors import Array, Ints
+from decomp.voronoi import Kind
 
 KINDS = ("sheet", "seam", "trim", "rim", "reflexive", "face", "interface", "edge", "trim surface")
 """The kinds of elements, by number."""
 
+SURFACES = tuple(Kind)
 PARITIES = {None: -1, Parity.EVEN: 0, Parity.ODD: 1}
 
 
@@ -36,6 +39,9 @@ class Elements:
         sites: of each element (m + k + s, w), indices into `Skeleton.sites`, -1 where there are
             fewer than w.
         parity: 0 even, 1 odd, -1 none.
+        surface: of each element of a sheet what it lies on, an index into the members of
+            `decomp.voronoi.Kind`, -1 for what is none.
+        degree: of that surface's equation, -1 where none is known.
         sheet_names: `region/sheet-N` by number.
     """
 
@@ -50,6 +56,8 @@ class Elements:
     seam: Ints
     sites: Ints
     parity: Ints
+    surface: Ints
+    degree: Ints
     sheet_names: tuple[str, ...]
 
 
@@ -64,6 +72,8 @@ class _Group:
     sheet: int = -1
     seam: int = -1
     parity: Parity | None = None
+    surface: int = -1
+    degree: int = -1
 
 
 def elements(skeleton: Skeleton, *, boundary: bool = False, trims: bool = False) -> Elements:
@@ -104,6 +114,8 @@ def elements(skeleton: Skeleton, *, boundary: bool = False, trims: bool = False)
         column([group.seam for group in groups]),
         np.repeat(table, sizes, axis=0),
         column([PARITIES[group.parity] for group in groups]),
+        column([group.surface for group in groups]),
+        column([group.degree for group in groups]),
         tuple(
             f"{region.name}/sheet-{first + k}"
             for region, first in zip(skeleton.regions, first_sheets(skeleton), strict=True)
@@ -136,9 +148,16 @@ def _skeleton_groups(skeleton: Skeleton) -> Iterator[_Group]:
     numbers = zip(skeleton.regions, first_sheets(skeleton), first_seams(skeleton), strict=True)
     for at, (region, first_sheet, first_seam) in enumerate(numbers):
         for k, sheet in enumerate(region.sheets):
-            triangles = mesh.patches[sheet.patch].triangles
+            lies_on = sheet_kind(skeleton, region, sheet)
             yield _Group(
-                triangles, "sheet", at, sheet.sites, sheet=first_sheet + k, parity=sheet.parity
+                mesh.patches[sheet.patch].triangles,
+                "sheet",
+                at,
+                sheet.sites,
+                sheet=first_sheet + k,
+                parity=sheet.parity,
+                surface=SURFACES.index(lies_on.kind),
+                degree=-1 if lies_on.degree is None else lies_on.degree,
             )
         for kind, line, seam in _lines(region, first_seam):
             corners = _pairs(mesh.lines[line.line].vertices)

@@ -23,8 +23,9 @@ TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "int8": "Int8
 def encoded(parts: Elements) -> bytes:
     """A grid of triangles, lines and vertices.
 
-    Point data: radius. Cell data: sheet, sites, parity, kind (an index into `elements.KINDS`),
-    region, seam; -1 stands for none.
+    Point data: radius. Cell data: sheet, sites, parity, surface (what a sheet lies on, an index
+    into `elements.SURFACES`) and its degree, kind (an index into `elements.KINDS`), region, seam;
+    -1 stands for none.
     """
     groups = (parts.triangles, parts.segments, parts.singles)
     sizes = np.repeat([3, 2, 1], [len(group) for group in groups])
@@ -38,6 +39,8 @@ def encoded(parts: Elements) -> bytes:
         "sheet": parts.sheet.astype(np.int32),
         "sites": parts.sites.astype(np.int32),
         "parity": parts.parity.astype(np.int8),
+        "surface": parts.surface.astype(np.int8),
+        "degree": parts.degree.astype(np.int8),
         "kind": parts.kind.astype(np.int8),
         "region": parts.region.astype(np.int32),
         "seam": parts.seam.astype(np.int32),

@@ -16,6 +16,7 @@ from decomp.output.cells import file_stems, write_cells
 from decomp.output.elements import KINDS
 from decomp.output.labels import site_labels
 from decomp.sites.site import Site, SiteKind
+from decomp.voronoi import Kind
 from tests.skeleton_fixtures import block, capsule
 
 
@@ -35,6 +36,9 @@ def test_vtu(tmp_path: Path) -> None:
         assert (rows[:, :2] == made.sites).all()
         assert (rows[:, 2:] == -1).all()
     assert (mesh.cell_data["parity"][0] == 0).all()
+    assert (mesh.cell_data["surface"][0] == list(Kind).index(Kind.PLANE)).all()
+    assert (mesh.cell_data["degree"][0] == 1).all()
+    assert (mesh.cell_data["surface"][1] == -1).all()
     assert (mesh.cell_data["kind"][1] == KINDS.index("seam")).all()
     assert list(mesh.cell_data["seam"][1]) == list(range(12))
 
@@ -100,7 +104,16 @@ def test_json(tmp_path: Path) -> None:
         "parity": "even",
         "area": 2.0,
         "radius": [1.0, 1.0],
+        "surface": {
+            "kind": "plane",
+            "degree": 1,
+            "equation": "z - 1 = 0",
+            "origin": region["sheets"][0]["surface"]["origin"],
+            "axes": region["sheets"][0]["surface"]["axes"],
+            "parameters": {},
+        },
     }
+    assert region["sheets"][0]["surface"]["origin"][2] == 1.0
     for seam in region["seams"]:
         assert list(seam) == ["id", "sites", "sheets", "length", "closed"]
         assert len(seam["sheets"]) == 3

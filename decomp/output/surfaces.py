@@ -1,0 +1,32 @@
+"""What a sheet lies on, as JSON values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
+from decomp.medial.sheet_kinds import sheet_kind
+
+DIGITS = 15
+
+
+def surface_values(
+    skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet, digits: int = DIGITS
+) -> dict[str, Any]:
+    """Kind, degree, equation and, where the kind has them, canonical parameters.
+
+    The equation has integer coefficients where they are short, else rounded ones of which the
+    largest is 1. Origin and axes (as rows) are the frame in which the kind's canonical equation
+    holds; lengths are in the model's units, angles in radians.
+    """
+    found = sheet_kind(skeleton, region, sheet)
+    values: dict[str, Any] = {
+        "kind": found.kind.value,
+        "degree": found.degree,
+        "equation": found.equation(digits),
+    }
+    if found.shape is not None:
+        values["origin"] = found.shape.origin.tolist()
+        values["axes"] = found.shape.axes.tolist()
+        values["parameters"] = {name: float(v) for name, v in found.shape.parameters.items()}
+    return values
