@@ -21,7 +21,7 @@ from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, tetrahedralized
-from decomp.tetra.classify import classified, region_of
+from decomp.tetra.classify import classified
 from decomp.tetra.faces import faces_of
 from decomp.tetra.features import OF_LENGTH, fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
@@ -102,10 +102,10 @@ def mesh(
     raw = tetrahedralized(*soup, settings, field, timeout, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
-    label = classified(geometry, known, raw.points, raw.tets, epsilon)
-    points, tets = _used(raw.points, raw.tets[label >= 0])
-    points, tets, label = freed(points, tets, label[label >= 0], known.region)
-    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(points, label, faces_of(tets))
+    part = classified(geometry, known, raw.points, raw.tets, epsilon)
+    points, tets = _used(raw.points, raw.tets[part >= 0])
+    points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
+    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(points, part, faces_of(tets))
     tell("projecting", 0.85)
     elements = Elements(plan.complex)
     finder = Finder(geometry, made, known, plan, elements, epsilon)
@@ -119,9 +119,9 @@ def mesh(
         left = np.concatenate([left, curved.left])
     groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
     if volumes == "cells":
-        solid, tet_tags = cell_groups(geometry, known), label + 1
+        solid, tet_tags = cell_groups(geometry, known), known.cell_of(part) + 1
     else:
-        solid, tet_tags = region_groups(geometry), region_of(label, known) + 1
+        solid, tet_tags = region_groups(geometry), known.region_of(part) + 1
     return TetMesh(
         geometry.model.name,
         points,

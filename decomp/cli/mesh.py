@@ -119,13 +119,6 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help=f"seconds that TetWild may take (default {TIMEOUT:g})",
     )
-    group.add_argument(
-        "--tolerance",
-        type=_positive,
-        metavar="T",
-        help="how far TetWild may stray from the exact surfaces before nodes are moved onto them, "
-        "relative to the model's diagonal (default: from the model)",
-    )
 
 
 def run(options: argparse.Namespace) -> None:
@@ -181,7 +174,6 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
             sheets=options.sheets,
             timeout=options.timeout,
             progress=stages,
-            **({} if options.tolerance is None else {"tolerance": options.tolerance}),
         )
         spent = stages.spent()
     return made, report(made, {each.name: each.volume for each in geometry.regions}, spent)

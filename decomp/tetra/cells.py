@@ -19,22 +19,33 @@ OUTSIDE = -1
 
 @dataclass(frozen=True, eq=False)
 class CellMap:
-    """The cells of all regions under one numbering.
+    """The cells of all regions under one numbering, and their parts under another.
+
+    A cell that a sheet leads into without cutting it in two has a part for each site that such
+    sheets part, and one for all its other sites; other cells are their only part.
 
     Args:
         cells: all, region after region.
         region: (c,) the region of each cell.
-        of_site: (s,) the cell that holds the points nearest to each site, OUTSIDE for the sites of
+        part: (s,) the part that holds the points nearest to each site, OUTSIDE for the sites of
             the outside.
+        cell: (p,) the cell of each part.
         face: (s,) the face, as an index into its region's, that owns each site.
-        regions: how many there are.
     """
 
     cells: tuple[Cell, ...]
     region: Ints
-    of_site: Ints
+    part: Ints
+    cell: Ints
     face: Ints
-    regions: int
+
+    def cell_of(self, part: Ints) -> Ints:
+        """The cells of parts, OUTSIDE for OUTSIDE."""
+        return np.where(part < 0, OUTSIDE, self.cell[np.maximum(part, 0)])
+
+    def region_of(self, part: Ints) -> Ints:
+        """The regions of parts, -1 for OUTSIDE."""
+        return np.where(part < 0, -1, self.region[self.cell[np.maximum(part, 0)]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,12 +53,12 @@ class Located:
     """Where points are.
 
     Args:
-        cell: (n,) numbers, OUTSIDE where no region is.
+        part: (n,) of cells, OUTSIDE where no region is.
         site: (n,) nearest ones.
         foot: (n, 3) nearest points of the boundary of the region, or of the outside.
     """
 
-    cell: Ints
+    part: Ints
     site: Ints
     foot: Array
 
@@ -65,16 +76,27 @@ def cell_map(surface: MeshSurface) -> CellMap:
             cells.append(cell)
             region.append(number)
     owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
-    of_site = [
-        OUTSIDE if site.region < 0 else of_face[site.region, int(face)]
-        for site, face in zip(surface.sites, owner, strict=True)
-    ]
+    of_site = np.array(
+        [
+            OUTSIDE if site.region < 0 else of_face[site.region, int(face)]
+            for site, face in zip(surface.sites, owner, strict=True)
+        ],
+        dtype=np.int64,
+    )
+    part, cell_of_part = of_site.copy(), list(range(len(cells)))
+    for each in surface.regions:
+        for one, two in each.sheets.values():
+            if of_site[one] == of_site[two] and one != two:
+                for site in (one, two):
+                    if part[site] < len(cells):
+                        part[site] = len(cell_of_part)
+                        cell_of_part.append(int(of_site[site]))
     return CellMap(
         tuple(cells),
         np.array(region, dtype=np.int64),
-        np.array(of_site, dtype=np.int64),
+        part,
+        np.array(cell_of_part, dtype=np.int64),
         owner,
-        len(surface.regions),
     )
 
 
@@ -101,7 +123,7 @@ def site_owners(sites: Sequence[Site], boundaries: Sequence[RegionBoundary]) -> 
 
 
 def locate(geometry: Geometry, cells: CellMap, points: Array) -> Located:
-    """Find the cells of points (n, 3)."""
+    """Find the parts of cells that hold points (n, 3)."""
     found = geometry.index.nearest(points)
-    cell = np.where(found.region < 0, OUTSIDE, cells.of_site[found.site])
-    return Located(cell, found.site.astype(np.int64), found.foot)
+    part = np.where(found.region < 0, OUTSIDE, cells.part[found.site])
+    return Located(part, found.site.astype(np.int64), found.foot)

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.geometry import Geometry
-from decomp.tetra.cells import CellMap, locate
-from decomp.tetra.faces import NONE, Faces, faces_of, volumes
+from decomp.tetra.cells import OUTSIDE, CellMap, locate
+from decomp.tetra.faces import NONE, Faces, faces_of
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 TOWARDS = 0.4
@@ -22,6 +22,9 @@ ASIDE = 2.0
 NEAR_CORNER = 0.8
 """It is asked in the middle and so far from there to its corners."""
 ROUNDS = 30
+CORRECTIONS = 3
+FAR = 2.0
+"""Nodes of the boundary are at most so many epsilons off it."""
 OWN = 0.5
 """What a tetrahedron's own points count against all of its neighbours."""
 
@@ -29,12 +32,13 @@ OWN = 0.5
 def classified(
     geometry: Geometry, cells: CellMap, points: Array, tets: Ints, epsilon: float
 ) -> Ints:
-    """The cell (m,) of each tetrahedron (m, 4), OUTSIDE for none."""
+    """The part (m,) of a cell that each tetrahedron (m, 4) is in, OUTSIDE for none."""
     votes = _votes(geometry, cells, points, tets)
     label = votes[:, 0].copy()
     doubt = (votes != label[:, None]).any(axis=1)
     faces = faces_of(tets)
     _follow(geometry, cells, points, tets, faces, votes, doubt, label, epsilon)
+    _correct(geometry, cells, points, tets, faces, votes[:, 0], label, epsilon)
     return label
 
 
@@ -43,7 +47,7 @@ def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Int
     corners = points[tets]
     middle = corners.mean(axis=1, keepdims=True)
     asked = np.concatenate([middle, middle + TOWARDS * (corners - middle)], axis=1)
-    return locate(geometry, cells, asked.reshape(-1, 3)).cell.reshape(len(tets), 5)
+    return locate(geometry, cells, asked.reshape(-1, 3)).part.reshape(len(tets), 5)
 
 
 def walls(
@@ -59,7 +63,7 @@ def walls(
     middle = corners.mean(axis=1, keepdims=True)
     asked = np.concatenate([middle, middle + NEAR_CORNER * (corners - middle)], axis=1)
     both = np.concatenate([asked - way[:, None], asked + way[:, None]])
-    found = locate(geometry, cells, both.reshape(-1, 3)).cell.reshape(2, len(triangles), 4)
+    found = locate(geometry, cells, both.reshape(-1, 3)).part.reshape(2, len(triangles), 4)
     return np.asarray((found[0] != found[1]).all(axis=1))
 
 
@@ -109,6 +113,35 @@ def _follow(
         label[changing] = new[changing]
 
 
+def _correct(
+    geometry: Geometry,
+    cells: CellMap,
+    points: Array,
+    tets: Ints,
+    faces: Faces,
+    middle: Ints,
+    label: Ints,
+    epsilon: float,
+) -> None:
+    """Take back what has led the boundary astray: nodes too far from the exact one tell.
+
+    Args:
+        geometry, cells, points, tets, faces: of the mesh.
+        middle: (m,) the cell at each tetrahedron's middle.
+        label: (m,) is changed.
+        epsilon: how far the boundary may be off.
+    """
+    for _ in range(CORRECTIONS):
+        region = cells.region_of(np.append(label, OUTSIDE)[faces.tets])
+        hull = np.unique(faces.triangles[region[:, 0] != region[:, 1]])
+        far = np.zeros(len(points), dtype=np.bool_)
+        far[hull] = geometry.index.nearest(points[hull]).distance > FAR * epsilon
+        wrong = np.flatnonzero(far[tets].any(axis=1) & (label != middle))
+        if not len(wrong):
+            return
+        label[wrong] = middle[wrong]
+
+
 def _heaviest(who: Ints, said: Ints, weight: Array, count: int) -> Ints:
     """For each of `count` the value with the largest sum of weights, -2 where none is given."""
     width = int(said.max(initial=0)) + 2
@@ -119,15 +152,3 @@ def _heaviest(who: Ints, said: Ints, weight: Array, count: int) -> Ints:
     best = np.full(count, -2, dtype=np.int64)
     best[unique[order] // width] = unique[order] % width - 1
     return best
-
-
-def region_of(label: Ints, cells: CellMap) -> Ints:
-    """The region (m,) of cells (m,), -1 for the outside."""
-    return np.where(label < 0, -1, cells.region[np.maximum(label, 0)])
-
-
-def volume_by_cell(points: Array, tets: Ints, label: Ints, cells: CellMap) -> Array:
-    """The volume (c,) of each cell's tetrahedra."""
-    inside = label >= 0
-    found = volumes(points, tets)[inside]
-    return np.bincount(label[inside], found, len(cells.cells)).astype(np.float64)

@@ -30,6 +30,8 @@ SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
+THIN = 4.0
+"""Edges are at most so many times as long as the part that they are in is thick."""
 STEP = 1.25
 """Wishes are joined in classes of lengths that differ by this factor."""
 
@@ -113,10 +115,10 @@ def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
         for some, own in _curved(geometry, surface, number, length, wanted):
             points.append(some)
             lengths.append(own)
-        if wanted.layers is not None:
-            some, thick = thickness(geometry, surface, number, length)
-            points.append(some)
-            lengths.append(np.minimum(thick / wanted.layers, length))
+        some, thick = thickness(geometry, surface, number, length)
+        across = THIN if wanted.layers is None else min(THIN, 1 / wanted.layers)
+        points.append(some)
+        lengths.append(np.minimum(across * thick, length))
     return Wishes(np.concatenate(points), np.concatenate(lengths))
 
 

@@ -9,7 +9,6 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.geometry import Geometry
 from decomp.tetra.cells import OUTSIDE, CellMap, locate
-from decomp.tetra.classify import region_of
 from decomp.tetra.faces import NONE, Faces
 from decomp.tetra.layout import Layout, samples
 from decomp.tetra.surface import MeshSurface
@@ -17,6 +16,8 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 ASIDE = 0.5
 """Triangles' own sides are asked so many epsilons off them."""
+JUMP = 4.0
+"""Feet jump across a sheet by at least so many epsilons."""
 TURNED = 3.0
 """A normal at right angles to a face's counts as much as a distance of so many epsilons."""
 
@@ -58,21 +59,60 @@ class Tagger:
         self._geometry, self._surface, self._cells = geometry, surface, cells
         self._plan, self._epsilon = plan, epsilon
 
-    def tagged(self, points: Array, label: Ints, faces: Faces) -> Tagged:
-        """The triangles between tetrahedra of different cells, with their patches."""
-        sides = np.where(faces.tets == NONE, OUTSIDE, label[faces.tets])
-        rows = np.flatnonzero(sides[:, 0] != sides[:, 1])
-        sides, triangles = sides[rows], faces.triangles[rows]
-        regions = region_of(sides, self._cells)
+    def tagged(self, points: Array, part: Ints, faces: Faces) -> Tagged:
+        """The triangles between tetrahedra of different cells, and those on sheets inside cells.
+
+        Args:
+            points: (n, 3).
+            part: (m,) the part of a cell that each tetrahedron is in.
+            faces: of the tetrahedra.
+        """
+        parts = np.where(faces.tets == NONE, OUTSIDE, part[faces.tets])
+        rows = np.flatnonzero(parts[:, 0] != parts[:, 1])
+        parts, triangles = parts[rows], faces.triangles[rows]
+        sides, regions = self._cells.cell_of(parts), self._cells.region_of(parts)
         swapped = self._second_first(sides, regions)
         triangles = np.where(swapped[:, None], triangles[:, ::-1], triangles)
         sides = np.where(swapped[:, None], sides[:, ::-1], sides)
         regions = np.where(swapped[:, None], regions[:, ::-1], regions)
         patches = np.full(len(rows), -1, dtype=np.int64)
         outer = regions[:, 0] != regions[:, 1]
+        inner = sides[:, 0] == sides[:, 1]
         patches[outer] = self._boundary(points, triangles[outer], regions[outer])
-        patches[~outer] = self._sheets(points, triangles[~outer], sides[~outer])
-        return Tagged(triangles, sides, patches)
+        patches[~outer & ~inner] = self._sheets(
+            points, triangles[~outer & ~inner], sides[~outer & ~inner]
+        )
+        patches[inner] = self._inside(points, triangles[inner], parts[inner])
+        kept = patches >= 0
+        return Tagged(triangles[kept], sides[kept], patches[kept])
+
+    def _inside(self, points: Array, triangles: Ints, parts: Ints) -> Ints:
+        """The sheets inside cells that triangles lie on, -1 for those on none.
+
+        Between two sites there may be a trim as well, across which the foot does not jump.
+        """
+        found = np.full(len(triangles), -1, dtype=np.int64)
+        if not len(triangles):
+            return found
+        pairs: dict[tuple[int, int], list[int]] = {}
+        for region in self._surface.regions:
+            for patch, sites in region.sheets.items():
+                low, high = sorted(int(self._cells.part[site]) for site in sites)
+                if patch in self._plan.inside and low != high:
+                    pairs.setdefault((low, high), []).append(patch)
+        corners = points[triangles]
+        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+        middle = corners.mean(axis=1)
+        asked = np.concatenate([middle - way, middle + way])
+        feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
+        jumps = norm(feet[0] - feet[1]) > JUMP * self._epsilon
+        ordered = np.sort(parts, axis=1)
+        for (low, high), patches in pairs.items():
+            rows = np.flatnonzero(jumps & (ordered == (low, high)).all(axis=1))
+            if len(rows):
+                found[rows] = self._nearest(corners[rows], tuple(patches))
+        return found
 
     @staticmethod
     def _second_first(sides: Ints, regions: Ints) -> Bools:
@@ -111,7 +151,7 @@ class Tagger:
         asked = asked - ASIDE * self._epsilon * normal[:, None]
         found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
         candidates = self._cells.face[found.site].reshape(-1, 4)
-        own = region_of(found.cell, self._cells).reshape(-1, 4) == regions[:, None]
+        own = self._cells.region_of(found.part).reshape(-1, 4) == regions[:, None]
         best = np.full(len(triangles), -1, dtype=np.int64)
         least = np.full(len(triangles), np.inf)
         for region in np.unique(regions).tolist():

@@ -1,0 +1,206 @@
+"""Meshes of models: exact, tagged, whole."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.errors import InputError
+from decomp.tetra.faces import faces_of, least_dihedral
+from decomp.tetra.mesh import GroupKind, TetMesh
+from decomp.tetra.quality import inverted, volumes
+from decomp.tetra.splitting import held
+from tests.solids import SOLIDS
+from tests.tetra.meshes import MODELS, geometry, meshed
+
+PLANAR = ("block", "bracket", "fichera")
+CURVED = ("cylinder", "through hole", "blind hole", "slot", "round boss", "unequal tee")
+EVERY = (*PLANAR, *CURVED, *MODELS)
+
+
+def regions_of(mesh: TetMesh) -> np.ndarray:
+    """The region (m,) of each tetrahedron."""
+    names = {region: k for k, region in enumerate(dict.fromkeys(g.regions[0] for g in mesh.groups))}
+    table = {g.tag: names[g.regions[0]] for g in mesh.groups if g.dimension == 3}
+    return np.array([table[tag] for tag in mesh.tet_tags.tolist()])
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_elements_are_sound(name: str) -> None:
+    mesh = meshed(name)
+    assert not inverted(mesh.points, mesh.tets).any()
+    faces_of(mesh.tets)  # raises where a face is in three elements
+    assert np.array_equal(np.unique(mesh.tets), np.arange(len(mesh.points)))
+    least = least_dihedral(mesh.points, mesh.tets)
+    assert least.min() >= 8
+    assert least.mean() >= 44
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_element_has_one_group(name: str) -> None:
+    mesh = meshed(name)
+    for tags, dimension in ((mesh.tet_tags, 3), (mesh.triangle_tags, 2)):
+        known = [group.tag for group in mesh.groups if group.dimension == dimension]
+        assert len(set(known)) == len(known)
+        assert set(tags.tolist()) == set(known)
+    keys = np.sort(mesh.triangles, axis=1)
+    assert len(np.unique(keys, axis=0)) == len(keys)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_every_face_between_regions_is_tagged_once(name: str) -> None:
+    mesh = meshed(name)
+    faces = faces_of(mesh.tets)
+    region = np.append(regions_of(mesh), -1)
+    sides = region[faces.tets]
+    outer = faces.triangles[sides[:, 0] != sides[:, 1]]
+    kinds = {group.tag: group.kind for group in mesh.groups if group.dimension == 2}
+    wanted = np.array(
+        [kinds[tag] is not GroupKind.SHEET for tag in mesh.triangle_tags.tolist()], dtype=bool
+    )
+    tagged = np.sort(mesh.triangles[wanted], axis=1)
+    assert set(map(tuple, np.sort(outer, axis=1).tolist())) == set(map(tuple, tagged.tolist()))
+    hull = {tuple(t) for t in faces.triangles[faces.tets[:, 1] < 0].tolist()}
+    turned = {tuple(np.roll(t, k)) for t in hull for k in range(3)}
+    boundary = np.array(
+        [kinds[tag] is GroupKind.FACE for tag in mesh.triangle_tags.tolist()], dtype=bool
+    )
+    assert all(tuple(t) in turned for t in mesh.triangles[boundary].tolist())
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_volumes(name: str) -> None:
+    mesh = meshed(name)
+    content = volumes(mesh.points, mesh.tets)
+    for region in geometry(name).regions:
+        own = [g.tag for g in mesh.groups if g.dimension == 3 and g.regions == (region.name,)]
+        total = content[np.isin(mesh.tet_tags, own)].sum()
+        assert total == pytest.approx(region.volume, rel=1e-12 if name in PLANAR else 5e-3)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_boundary_nodes_are_on_their_faces(name: str) -> None:
+    mesh, exact = meshed(name), geometry(name)
+    carriers = {
+        f"{region.name}/{face.name}": region.carriers[face.carrier]
+        for region in exact.regions
+        for face in region.faces
+    }
+    free = np.setdiff1d(np.arange(len(mesh.points)), mesh.unprojected)
+    assert len(mesh.unprojected) <= 0.002 * len(mesh.points)
+    for group in mesh.groups:
+        if group.kind in (GroupKind.FACE, GroupKind.INTERFACE):
+            nodes = np.unique(mesh.triangles[mesh.triangle_tags == group.tag])
+            for full in group.name.split("|"):
+                off = carriers[full].signed_distance(mesh.points[np.intersect1d(nodes, free)])
+                assert np.abs(off).max() <= 1e-12 * exact.diagonal
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_sheet_nodes_are_equally_far_from_the_cells_on_both_sides(name: str) -> None:
+    mesh, exact = meshed(name), geometry(name)
+    kinds = {group.tag: group.kind for group in mesh.groups if group.dimension == 2}
+    sheet = [tag for tag, kind in kinds.items() if kind is GroupKind.SHEET]
+    nodes = np.unique(mesh.triangles[np.isin(mesh.triangle_tags, sheet)])
+    nodes = np.setdiff1d(nodes, mesh.unprojected)
+    # away from its sheet a node has one nearest place, on it at least two
+    step = 1e-5 * exact.diagonal
+    ways = np.random.default_rng(1).normal(size=(40, 3))
+    ways /= np.linalg.norm(ways, axis=1)[:, None]
+    at = mesh.points[nodes]
+    feet = np.stack([exact.index.nearest(at + step * way).foot for way in ways])
+    depth = np.abs(exact.index.distance(at))
+    spread = np.linalg.norm(feet - feet[0], axis=2).max(axis=0)
+    inner = depth > 0.02 * exact.diagonal
+    assert inner.any()
+    assert (spread[inner] > 0.05 * depth[inner]).mean() > 0.98
+
+
+@pytest.mark.parametrize("name", PLANAR)
+def test_no_element_is_held_by_the_boundary(name: str) -> None:
+    mesh = meshed(name)
+    assert len(held(mesh.tets, regions_of(mesh))[0]) == 0
+
+
+def test_cells_of_a_planar_solid_are_exact() -> None:
+    mesh = meshed("block")
+    content = volumes(mesh.points, mesh.tets)
+    for group in mesh.groups:
+        if group.kind is GroupKind.CELL:
+            assert content[mesh.tet_tags == group.tag].sum() == pytest.approx(
+                group.volume, rel=1e-12
+            )
+
+
+def test_neighbours_share_their_interface() -> None:
+    mesh = meshed("two boxes")
+    interface = [g for g in mesh.groups if g.kind is GroupKind.INTERFACE]
+    assert [g.name for g in interface] == ["left/a.xmax|right/b.xmin"]
+    triangles = mesh.triangles[mesh.triangle_tags == interface[0].tag]
+    corners = mesh.points[triangles]
+    assert np.abs(corners[..., 0] - 2).max() == 0
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert np.linalg.norm(normal, axis=1).sum() / 2 == pytest.approx(4, rel=1e-12)
+    assert (normal[:, 0] > 0).all()
+
+
+def test_regions_without_sheets() -> None:
+    mesh = meshed("two boxes", volumes="regions", sheets=False)
+    assert [g.name for g in mesh.groups if g.dimension == 3] == ["left", "right"]
+    assert not [g for g in mesh.groups if g.kind is GroupKind.SHEET]
+    assert volumes(mesh.points, mesh.tets)[mesh.tet_tags == 1].sum() == pytest.approx(8, rel=1e-12)
+
+
+def test_a_cell_for_each_face() -> None:
+    mesh = meshed("bracket", cells="face")
+    cells = [g for g in mesh.groups if g.kind is GroupKind.CELL]
+    assert len(cells) == 8
+    assert all(len(g.faces) == 1 for g in cells)
+    content = volumes(mesh.points, mesh.tets)
+    for group in cells:
+        total = content[mesh.tet_tags == group.tag].sum()
+        assert total == pytest.approx(group.volume, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["cylinder", "blind hole"])
+def test_quadratic_elements(name: str) -> None:
+    straight, curved = meshed(name), meshed(name, order=2)
+    assert curved.tets.shape[1] == 10
+    assert curved.triangles.shape[1] == 6
+    assert not inverted(curved.points, curved.tets).any()
+    exact = SOLIDS[name].volume
+    error = volumes(curved.points, curved.tets).sum() / exact - 1
+    assert abs(error) < 2e-5
+    assert abs(error) < 0.05 * abs(volumes(straight.points, straight.tets).sum() / exact - 1)
+    faces = [g.tag for g in curved.groups if g.kind is GroupKind.FACE]
+    nodes = np.unique(curved.triangles[np.isin(curved.triangle_tags, faces)])
+    nodes = np.setdiff1d(nodes, curved.unprojected)
+    found = geometry(name)
+    assert np.abs(found.index.distance(curved.points[nodes])).max() <= 1e-12 * found.diagonal
+
+
+def test_layers_across_a_thin_plate() -> None:
+    plate = decomp.Block((0, 0, 0), (5, 4, 0.5), name="plate")
+    mesh = decomp.mesh(plate, layers=2)
+    middle = mesh.points[mesh.tets].mean(axis=1)
+    inside = (np.abs(middle[:, 0] - 2.5) < 1.5) & (np.abs(middle[:, 1] - 2) < 1)
+    length = np.ptp(mesh.points[mesh.tets][inside], axis=1)
+    assert np.median(length) < 0.5 / 2 * 1.2
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"size": 0.0},
+        {"size": float("nan")},
+        {"layers": 0},
+        {"elements_per_circle": 2},
+        {"order": 3},
+        {"cells": "faces"},
+        {"volumes": "all"},
+    ],
+)
+def test_options_out_of_range(wrong: dict[str, object]) -> None:
+    with pytest.raises(InputError):
+        decomp.mesh(decomp.Block((0, 0, 0), (1, 1, 1)), **wrong)  # type: ignore[arg-type]
