@@ -6,6 +6,7 @@ import numpy as np
 
 from decomp.complex.model import LineKind
 from decomp.geometry import Geometry
+from decomp.sites.site import SiteKind
 from decomp.tetra.cells import site_owners
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
@@ -49,23 +50,34 @@ def fitting_epsilon(geometry: Geometry, surface: MeshSurface, epsilon: float) ->
 
 
 def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
-    """Whether boundaries face each other across the outside, less than a width apart."""
+    """Whether boundaries face each other across the outside, less than a width apart.
+
+    Faces that meet in an edge make a groove there, not a gap.
+    """
     mesh = surface.complex
+    index = geometry.index
+    edges = [edge for region in geometry.regions for edge in region.edges]
+    meeting = {frozenset(edge.carriers) for edge in edges}
     for region in surface.regions:
-        for sides in region.face_sides:
+        boundary = region.boundary
+        for face, sides in zip(boundary.faces, region.face_sides, strict=True):
             for patch, sign in sides:
                 own = mesh.patches[patch]
-                some, _ = samples(
-                    mesh.points, own.triangles, max(region.boundary.diagonal / SAMPLED, width)
-                )
-                some = own.surface.place(some)
+                apart = max(boundary.diagonal / SAMPLED, width)
+                some = own.surface.place(samples(mesh.points, own.triangles, apart)[0])
                 out = sign * own.surface.normal(some)
                 asked = some + width / 2 * out
-                found = geometry.index.nearest(asked)
-                near = (found.region < 0) & (found.distance < 0.45 * width)
-                way = (found.foot - asked)[near] / np.maximum(found.distance[near], 1e-300)[:, None]
-                if (dot(way, out[near]) > -FACING).any():
-                    return True
+                found = index.nearest(asked)
+                outside = index.region_of(some + 0.01 * width * out) < 0
+                way = (found.foot - asked) / np.maximum(found.distance, 1e-300)[:, None]
+                near = (found.distance < 0.45 * width) & (dot(way, out) > -FACING)
+                for row in np.flatnonzero(outside & ((found.region >= 0) | near)):
+                    site = geometry.sites[found.site[row]]
+                    other = index.boundary(site.region)
+                    if site.kind is SiteKind.FACE:
+                        pair = frozenset((face.carrier, other.faces[site.index].carrier))
+                        if len(pair) == 2 and pair not in meeting:
+                            return True
     return False
 
 

@@ -1,0 +1,137 @@
+"""The steps after TetWild, each by itself on a mesh of a few tetrahedra."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.carriers import Plane
+from decomp.complex.elements import CarrierSurface
+from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.complex.refine_elements import Elements
+from decomp.tetra.content import contents
+from decomp.tetra.faces import faces_of, least_dihedral, volumes
+from decomp.tetra.field import kuhn
+from decomp.tetra.project import Projector
+from decomp.tetra.splitting import freed, held
+from decomp.tetra.surface import SurfaceMaker
+from decomp.tetra.targets import SURFACE, Targets, polyline_distance
+from decomp.vectors import Array, Ints, direction, vector
+from tests.solids import SOLIDS
+
+
+def grid(n: int) -> tuple[Array, Ints]:
+    """A unit cube of n^3 boxes in positive tetrahedra."""
+    line = np.linspace(0, 1, n + 1)
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    tets = kuhn(n + 1, n + 1, n + 1)
+    turned = volumes(points, tets) < 0
+    tets[turned] = tets[turned][:, [0, 1, 3, 2]]
+    return points, tets
+
+
+def test_faces_of_a_cube() -> None:
+    points, tets = grid(2)
+    faces = faces_of(tets)
+    hull = faces.triangles[faces.tets[:, 1] < 0]
+    assert len(hull) == 6 * 4 * 2
+    a, b, c = np.moveaxis(points[hull] - 0.5, 1, 0)
+    assert (np.einsum("ij,ij->i", a, np.cross(b, c)) > 0).all()
+    with pytest.raises(ValueError, match="three"):
+        faces_of(np.concatenate([tets, tets[:1], tets[:1]]))
+
+
+def test_dihedral_angles() -> None:
+    regular = np.array([[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    both = np.array([[0, 1, 2, 3], [0, 1, 3, 2]])
+    angle = np.degrees(np.arccos(1 / 3))
+    sign = np.sign(volumes(regular, both))
+    assert sorted(sign.tolist()) == [-1, 1]
+    assert least_dihedral(regular, both) == pytest.approx(sign * angle)
+
+
+@pytest.mark.parametrize("n", [1, 2])
+def test_elements_held_by_the_boundary_are_split(n: int) -> None:
+    points, tets = grid(n)
+    label = np.arange(len(tets)) % 2
+    region = np.zeros(2, dtype=np.int64)
+    assert len(held(tets, region[label])[0])
+    content = [volumes(points, tets)[label == k].sum() for k in (0, 1)]
+    points, tets, label = freed(points, tets, label, region)
+    assert len(held(tets, region[label])[0]) == 0
+    assert (volumes(points, tets) > 0).all()
+    after = [volumes(points, tets)[label == k].sum() for k in (0, 1)]
+    assert after == pytest.approx(content)
+    faces = faces_of(tets)
+    assert (faces.tets[:, 1] < 0).sum() == 12 * n**2
+
+
+def on_plane(height: float) -> Elements:
+    plane = CarrierSurface(
+        Plane(vector((0, 0, height), "point"), direction((0, 0, 1), "normal")), 1
+    )
+    corners = np.array([[0.0, 0, height], [1, 0, height], [0, 1, height]])
+    patch = Patch(PatchKind.FACE, plane, np.array([[0, 1, 2]]))
+    return Elements(Complex(corners, (patch,), ()))
+
+
+def targets_of(nodes: Ints) -> Targets:
+    zero = np.zeros(len(nodes), dtype=np.int64)
+    every = np.ones(len(nodes), dtype=np.bool_)
+    return Targets(nodes, np.full(len(nodes), SURFACE), zero, zero, every)
+
+
+def test_nodes_are_moved_together() -> None:
+    points, tets = grid(4)
+    top = np.flatnonzero(points[:, 2] == 1)
+    points[top, 2] += 0.02 * np.random.default_rng(0).normal(size=len(top))
+    moved = Projector(points, tets, targets_of(top), on_plane(1.0), np.empty((0, 3))).projected()
+    assert len(moved.left) == 0
+    assert (moved.points[top, 2] == 1).all()
+    assert (volumes(moved.points, tets) > 0).all()
+
+
+def test_a_node_that_would_invert_stays_and_is_counted() -> None:
+    points, tets = grid(3)
+    top = np.flatnonzero(points[:, 2] == 1)
+    lone = np.flatnonzero((points == np.array([0, 0, 1])).all(axis=1))
+    plane = on_plane(-0.5)
+    moved = Projector(points, tets, targets_of(lone), plane, np.empty((0, 3))).projected()
+    assert moved.left.tolist() == lone.tolist()
+    assert (volumes(moved.points, tets) > 0).all()
+    assert (moved.points[top, 2] == 1).all()
+
+
+def test_distance_from_a_polyline() -> None:
+    line = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]])
+    places = np.array([[0.5, -0.2, 0], [2, 2, 0], [1, 0.5, 3]])
+    assert polyline_distance(line, places) == pytest.approx([0.2, np.sqrt(2), 3])
+
+
+@pytest.mark.parametrize("name", ["sphere", "cylinder", "conical pit", "blind hole"])
+def test_bent_triangles_hold_what_the_region_does(name: str) -> None:
+    geometry = decomp.Geometry(SOLIDS[name].make())
+    made = SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+    region = made.regions[0]
+    total = sum(cell.volume for cell in region.cells)
+    assert total == pytest.approx(region.boundary.volume, rel=2e-4)
+    whole = [side for sides in region.face_sides for side in sides]
+    assert contents(made.complex, [whole])[0] == pytest.approx(region.boundary.volume, rel=2e-4)
+
+
+def test_every_pair_of_a_bracket_s_cells_is_parted_once() -> None:
+    from decomp.tetra.cells import cell_map
+    from decomp.tetra.layout import layout
+
+    geometry = decomp.Geometry(SOLIDS["bracket"].make())
+    made = SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+    cells = cell_map(made)
+    plan = layout(made, cells)
+    listed = list(itertools.chain(*plan.between.values()))
+    assert len(set(listed)) == len(listed)
+    kinds = [made.complex.patches[k].kind for k in listed]
+    assert set(kinds) == {PatchKind.SHEET}
+    assert all(around for around in plan.around_corner)

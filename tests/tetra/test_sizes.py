@@ -1,0 +1,132 @@
+"""Sizes: curvature, gradation, thickness, the file's own; epsilon from the smallest feature."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.csg.solid import Solid
+from decomp.tetra.features import fitting_epsilon, least_thickness, usual_epsilon
+from decomp.tetra.field import grid_lines, kuhn, size_field
+from decomp.tetra.sizes import SLOPE, Wanted, Wishes, curvatures, region_sizes, wishes
+from decomp.tetra.surface import MeshSurface, SurfaceMaker
+from decomp.vectors import direction, vector
+from tests.solids import SOLIDS
+
+UP = direction((0, 0, 1), "axis")
+ORIGIN = vector((0, 0, 0), "origin")
+
+
+def surface_of(solid: Solid) -> tuple[decomp.Geometry, MeshSurface]:
+    geometry = decomp.Geometry(solid)
+    return geometry, SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+
+
+def test_principal_curvatures() -> None:
+    points = np.random.default_rng(0).normal(size=(50, 3)) + np.array([3, 0, 0.2])
+    for carrier, expected in (
+        (Plane(ORIGIN, UP), (0.0, 0.0)),
+        (Sphere(ORIGIN, 2.0), (0.5, 0.5)),
+        (Cylinder(ORIGIN, UP, 0.25), (0.0, 4.0)),
+    ):
+        low, high = curvatures(carrier, points)
+        assert low == pytest.approx(np.full(50, expected[0]), abs=1e-12)
+        assert high == pytest.approx(np.full(50, expected[1]), abs=1e-12)
+    low, high = curvatures(Torus(ORIGIN, UP, 2.0, 0.5), np.array([[2.5, 0, 0], [1.5, 0, 0]]))
+    assert high == pytest.approx([2, 2])
+    assert low == pytest.approx([1 / 2.5, -1 / 1.5])
+
+
+def test_a_cone_has_no_curvature_at_its_apex() -> None:
+    low, high = curvatures(Cone(ORIGIN, UP, 0.3), np.array([[0.0, 0, 0], [0.5, 0.1, 1.0]]))
+    assert np.isfinite(low).all()
+    assert np.isfinite(high).all()
+
+
+def test_lengths_grow_by_a_slope() -> None:
+    random = np.random.default_rng(0)
+    wish = Wishes(random.uniform(size=(200, 3)), random.uniform(0.01, 0.5, size=200))
+    a, b = random.uniform(-1, 2, size=(2, 500, 3))
+    gap = np.linalg.norm(a - b, axis=1)
+    assert (np.abs(wish.at(a) - wish.at(b)) <= SLOPE * gap + 1e-12).all()
+    assert (wish.at(wish.points) <= wish.lengths).all()
+    near = wish.at(wish.points) >= wish.lengths.min() * (1 - 1e-12)
+    assert near.all()
+
+
+def test_the_grid_is_filled_by_its_tetrahedra() -> None:
+    lines = [np.array([0.0, 1, 3]), np.array([0.0, 2]), np.array([0.0, 0.5, 1, 4])]
+    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
+    corners = points[kuhn(3, 2, 4)]
+    edges = corners[:, 1:] - corners[:, :1]
+    assert np.abs(np.linalg.det(edges)).sum() / 6 == pytest.approx(3 * 2 * 4)
+
+
+def test_grid_lines_are_dense_where_lengths_are_small() -> None:
+    wish = Wishes(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]))
+    lines = grid_lines(-2.0, 12.0, wish, 0)
+    steps = np.diff(lines)
+    assert lines[[0, -1]].tolist() == [-2.0, 12.0]
+    assert steps[np.argmin(np.abs(lines[:-1]))] < 0.3 * steps.max()
+
+
+def test_uniform_wishes_need_no_field() -> None:
+    geometry, surface = surface_of(SOLIDS["block"].make())
+    wanted = Wanted(size=0.5)
+    wish = wishes(geometry, surface, wanted)
+    assert (wish.lengths == 0.5).all()
+    assert size_field(geometry, wish, region_sizes(geometry, wanted)) is None
+
+
+def test_edges_around_a_circle() -> None:
+    geometry, surface = surface_of(SOLIDS["cylinder"].make())
+    wish = wishes(geometry, surface, Wanted(size=0.5, per_circle=40))
+    on_side = np.isclose(np.hypot(wish.points[:, 0], wish.points[:, 1]), 1, atol=0.05)
+    assert wish.lengths[on_side].min() == pytest.approx(2 * np.pi / 40, rel=1e-9)
+    assert wish.lengths.max() == 0.5
+
+
+def test_by_default_curved_faces_keep_their_volume() -> None:
+    geometry, surface = surface_of(SOLIDS["sphere"].make())
+    wish = wishes(geometry, surface, Wanted())
+    assert wish.lengths.min() < 0.12 * 2
+    assert wish.lengths.max() <= geometry.diagonal / 20
+
+
+def test_the_files_own_sizes() -> None:
+    block = decomp.Block((0, 0, 0), (1, 1, 1))
+    far = decomp.Block((5, 0, 0), (1, 1, 1))
+    model = decomp.model(
+        [decomp.Region("fine", block, {"maxh": 0.05}), decomp.Region("usual", far)]
+    )
+    sizes = region_sizes(decomp.Geometry(model), Wanted(size=0.2))
+    assert sizes.tolist() == [0.05, 0.2]
+
+
+def test_layers_count_across_walls_and_not_at_corners() -> None:
+    geometry, surface = surface_of(decomp.Block((0, 0, 0), (8, 6, 1), name="plate"))
+    assert least_thickness(geometry, surface, 0) == pytest.approx(1, rel=1e-4)
+    wish = wishes(geometry, surface, Wanted(size=0.9, layers=4))
+    assert wish.lengths.min() == pytest.approx(0.25, rel=1e-4)
+
+
+def test_epsilon_is_taken_from_the_smallest_object() -> None:
+    ball = decomp.Sphere((0.3, 0.2, 0.1), 1, name="ball")
+    box = decomp.Block((-100, -100, -100), (200, 200, 200), name="box")
+    geometry = decomp.Geometry({"ball": ball, "air": box - ball})
+    sizes = region_sizes(geometry, Wanted())
+    assert sizes[0] < 0.5
+    assert sizes[1] > 10
+    assert usual_epsilon(geometry, float(sizes.min())) < 0.02
+
+
+def test_epsilon_fits_walls_and_gaps() -> None:
+    geometry, surface = surface_of(SOLIDS["thin wall"].make())
+    assert fitting_epsilon(geometry, surface, 0.05) <= 0.2 * 0.01 * (1 + 1e-9)
+    slit = decomp.Block((0, 0, 0), (4, 4, 4)) - decomp.Block((2, -1, 1), (0.04, 6, 5))
+    geometry, surface = surface_of(slit)
+    assert fitting_epsilon(geometry, surface, 0.05) < 0.02
+    geometry, surface = surface_of(SOLIDS["block"].make())
+    assert fitting_epsilon(geometry, surface, 0.01) == 0.01
