@@ -90,7 +90,7 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
                 str(row["id"]),
                 " / ".join(row["sites"]),
                 row["parity"] or "-",
-                row["kind"],
+                " + ".join([row["kind"], *(other["kind"] for other in row.get("also", ()))]),
                 f"{row['area']:.6g}",
                 f"{row['radius'][0]:.4g} to {row['radius'][1]:.4g}",
                 _short(row["equation"]),

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.complex.model import Complex
 from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
 from decomp.parity import Parity
 from decomp.sites.site import Site, SiteKind
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array
+from decomp.vectors import Array, Bools, norm
 from decomp.voronoi import (
+    ConeSite,
     Kind,
     PlaneSite,
     Polynomial,
     Shape,
+    SphereSite,
     VoronoiSite,
     VoronoiSurface,
     site_of,
@@ -35,12 +39,15 @@ class SheetKind:
         parity: by the sides on which the sheet lies; even between points and curves.
         shape: kind and canonical parameters, None for a general surface.
         surface: Vor(f, g), None for an edge's sheet with itself.
+        also: further surfaces of the sheet: where the nearest point of a cone is its apex it goes
+            over smoothly to the Voronoi surface of the apex.
     """
 
     sites: tuple[Site, Site]
     parity: Parity
     shape: Shape | None
     surface: VoronoiSurface | None
+    also: tuple[SheetKind, ...] = ()
 
     @property
     def kind(self) -> Kind:
@@ -85,8 +92,37 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
     one, two = (voronoi_site(boundary, site) for site in pair)
     sides = {_side(boundary, site) for site in pair}
     parity = Parity.EVEN if len(sides) == 1 else Parity.ODD
-    found = surface(one, two, parity, size=size)
-    return SheetKind(pair, parity, found.shape, found)
+    pieces = []
+    for f, g in _pieces(one, two, skeleton.complex, sheet.patch):
+        found = surface(f, g, parity, size=size)
+        pieces.append(SheetKind(pair, parity, found.shape, found))
+    return replace(pieces[0], also=tuple(pieces[1:]))
+
+
+def _pieces(
+    one: VoronoiSite, two: VoronoiSite, mesh: Complex, patch: int
+) -> list[tuple[VoronoiSite, VoronoiSite]]:
+    """The pairs of sites, with an apex for its cone where it is nearest, the largest part first."""
+    if not (isinstance(one, ConeSite) or isinstance(two, ConeSite)):
+        return [(one, two)]
+    centres = mesh.points[mesh.patches[patch].triangles].mean(axis=1)
+    by_apex = np.stack([_at_apex(site, centres) for site in (one, two)], axis=-1)
+    flags, counts = np.unique(by_apex, axis=0, return_counts=True)
+    return [
+        (_or_apex(one, bool(flags[k, 0])), _or_apex(two, bool(flags[k, 1])))
+        for k in np.argsort(-counts, kind="stable")
+    ]
+
+
+def _at_apex(site: VoronoiSite, points: Array) -> Bools:
+    """Whether the apex of a cone is its nearest point."""
+    if not isinstance(site, ConeSite):
+        return np.zeros(len(points), dtype=bool)
+    return np.asarray(norm(site.foot(points) - site.carrier.apex) == 0)
+
+
+def _or_apex(site: VoronoiSite, apex: bool) -> VoronoiSite:
+    return SphereSite(site.apex, Fraction(0)) if apex and isinstance(site, ConeSite) else site
 
 
 def voronoi_site(boundary: RegionBoundary, site: Site) -> VoronoiSite:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
-from decomp.medial.sheet_kinds import sheet_kind
+from decomp.medial.sheet_kinds import SheetKind, sheet_kind
 
 DIGITS = 15
 
@@ -17,9 +17,17 @@ def surface_values(
 
     The equation has integer coefficients where they are short, else rounded ones of which the
     largest is 1. Origin and axes (as rows) are the frame in which the kind's canonical equation
-    holds; lengths are in the model's units, angles in radians.
+    holds; lengths are in the model's units, angles in radians. Where the nearest point of a cone is
+    its apex, the sheet goes over to another surface: `also`.
     """
     found = sheet_kind(skeleton, region, sheet)
+    values = _values(found, digits)
+    if found.also:
+        values["also"] = [_values(other, digits) for other in found.also]
+    return values
+
+
+def _values(found: SheetKind, digits: int) -> dict[str, Any]:
     values: dict[str, Any] = {
         "kind": found.kind.value,
         "degree": found.degree,

@@ -21,6 +21,7 @@ MODELS = [
     "blind hole",
     "bracket",
     "countersink",
+    "conical pit",
     "round boss",
     "unequal tee",
     "lens",
@@ -37,14 +38,19 @@ def test_vertices_lie_on_the_equations(model: str) -> None:
         for sheet, kind in zip(region.sheets, sheet_kinds(skeleton, region), strict=True):
             used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
             p = skeleton.complex.points[used]
-            if kind.shape is not None:
-                assert kind.shape.deviation(p).max() <= 1e-10 * skeleton.diagonal
+            pieces = [kind, *kind.also]
+            if all(piece.shape is not None for piece in pieces):
+                gaps = [piece.shape.deviation(p) for piece in pieces if piece.shape is not None]
+                assert np.min(gaps, axis=0).max() <= 1e-10 * skeleton.diagonal
             if kind.surface is not None:
-                off = np.abs(kind.surface.difference(p)).max()
-                assert off <= 1e-10 * skeleton.diagonal
+                surfaces = [piece.surface for piece in pieces]
+                gaps = [np.abs(each.difference(p)) for each in surfaces if each is not None]
+                assert np.min(gaps, axis=0).max() <= 1e-10 * skeleton.diagonal
                 assert sheet.parity is None or kind.parity.value == sheet.parity.value
             polynomial = kind.polynomial
             assert polynomial is not None
+            if kind.also:
+                continue
             slope = np.linalg.norm(polynomial.gradient(p), axis=1)
             clear = slope > 1e-6 * slope.max()
             assert (np.abs(polynomial(p)) / np.where(clear, slope, np.inf)).max() <= (
@@ -74,6 +80,16 @@ def test_figure_2_and_4_blind_hole() -> None:
     assert found["hole.base|hole.side/plate.zmin"] is Kind.REVOLVED_PARABOLA
     assert found["hole.side/plate.zmax"] is Kind.CIRCULAR_CONE
     assert found["hole.side/plate.xmin"] is Kind.PARABOLIC_CYLINDER
+
+
+def test_sheet_about_an_apex() -> None:
+    """Under a conical pit cones go over to paraboloids about the apex."""
+    skeleton = skeleton_of("conical pit")
+    (region,) = skeleton.regions
+    pairs = [
+        (kind.kind, *(other.kind for other in kind.also)) for kind in sheet_kinds(skeleton, region)
+    ]
+    assert any(Kind.PARABOLOID in pair for pair in pairs)
 
 
 def test_naming_costs_little() -> None:
