@@ -15,7 +15,9 @@ from decomp.sites.site import Site, SiteKind
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, norm
 from decomp.voronoi import (
+    CarrierSite,
     ConeSite,
+    CurveSite,
     Kind,
     PlaneSite,
     Polynomial,
@@ -38,7 +40,7 @@ class SheetKind:
         sites: f and g.
         parity: by the sides on which the sheet lies; even between points and curves.
         shape: kind and canonical parameters, None for a general surface.
-        surface: Vor(f, g), None for an edge's sheet with itself.
+        surface: Vor(f, g), None for a curve's sheet with itself.
         also: further surfaces of the sheet: where the nearest point of a cone is its apex it goes
             over smoothly to the Voronoi surface of the apex.
     """
@@ -85,18 +87,30 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
     """What one sheet of a region lies on."""
     boundary, size = region.boundary, skeleton.diagonal
     pair = skeleton.sites[sheet.sites[0]], skeleton.sites[sheet.sites[1]]
-    if sheet.sites[0] == sheet.sites[1]:
-        used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
-        plane = _plane_through(skeleton.complex.points[used], size)
-        return SheetKind(pair, Parity.EVEN, plane, None)
-    one, two = (voronoi_site(boundary, site) for site in pair)
     sides = {_side(boundary, site) for site in pair}
     parity = Parity.EVEN if len(sides) == 1 else Parity.ODD
+    one, two = (voronoi_site(boundary, site) for site in pair)
+    if _alike(one, two, size):
+        used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
+        return SheetKind(pair, parity, _plane_through(skeleton.complex.points[used], size), None)
     pieces = []
     for f, g in _pieces(one, two, skeleton.complex, sheet.patch):
         found = surface(f, g, parity, size=size)
         pieces.append(SheetKind(pair, parity, found.shape, found))
     return replace(pieces[0], also=tuple(pieces[1:]))
+
+
+def _alike(one: VoronoiSite, two: VoronoiSite, size: float) -> bool:
+    """Whether they are one site, or arcs of one curve: the sheet is the curve's with itself."""
+    if isinstance(one, CurveSite) and isinstance(two, CurveSite):
+        p = one.curve.point(np.linspace(*one.curve.domain, 5))
+        return bool(np.all(two.signed_distance(p) <= TOLERANCE * size))
+    if type(one) is not type(two) or not isinstance(one, CarrierSite):
+        return False
+    assert isinstance(two, CarrierSite)
+    return one.two_sided == two.two_sided and bool(
+        one.carrier.coincides(two.carrier, TOLERANCE * size, size)
+    )
 
 
 def _pieces(

@@ -10,10 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import decomp
 from decomp.cli.main import main
 from decomp.medial.sheet_kinds import sheet_kinds
 from decomp.voronoi import Kind
 from tests.skeleton.computed import skeleton_of
+from tests.solids import SOLIDS
+
+MESHES = Path(__file__).parents[2] / "meshes"
 
 MODELS = [
     "block",
@@ -58,28 +62,36 @@ def test_vertices_lie_on_the_equations(model: str) -> None:
             )
 
 
-def kinds_of(model: str) -> Counter[Kind]:
-    skeleton = skeleton_of(model)
+def named(file: str) -> dict[str, Kind]:
+    """The kinds of a model's sheets by the last parts of their sites' names."""
+    skeleton = decomp.skeleton(MESHES / file)
     (region,) = skeleton.regions
-    return Counter(kind.kind for kind in sheet_kinds(skeleton, region))
+    found = {}
+    for kind in sheet_kinds(skeleton, region):
+        edges = [site.name.split("|") for site in kind.sites]
+        words = ["|".join(part.split(".", 1)[1] for part in edge) for edge in edges]
+        found[" / ".join(sorted(words))] = kind.kind
+    return found
 
 
 def test_figure_1_block() -> None:
     """13 planes."""
-    assert kinds_of("block") == {Kind.PLANE: 13}
+    assert list(named("block.geo").values()) == [Kind.PLANE] * 13
 
 
-def test_figure_2_and_4_blind_hole() -> None:
+def test_figures_2_and_4_blind_hole() -> None:
     """Under the hole a plane, around it a parabolic torus, beside it a cone."""
-    skeleton = skeleton_of("blind hole")
-    (region,) = skeleton.regions
-    found = {}
-    for kind in sheet_kinds(skeleton, region):
-        found["/".join(sorted(site.name for site in kind.sites))] = kind.kind
-    assert found["hole.base/plate.zmin"] is Kind.PLANE
-    assert found["hole.base|hole.side/plate.zmin"] is Kind.REVOLVED_PARABOLA
-    assert found["hole.side/plate.zmax"] is Kind.CIRCULAR_CONE
-    assert found["hole.side/plate.xmin"] is Kind.PARABOLIC_CYLINDER
+    found = named("blind_hole.geo")
+    under = {pair: kind for pair, kind in found.items() if "zmin" in pair and "x" not in pair}
+    assert Kind.PLANE in under.values()
+    kinds = Counter(found.values())
+    assert kinds[Kind.REVOLVED_PARABOLA] == 1
+    assert kinds[Kind.CIRCULAR_CONE] == 1
+    assert kinds[Kind.PARABOLIC_CYLINDER] == 4
+    (torus,) = [pair for pair, kind in found.items() if kind is Kind.REVOLVED_PARABOLA]
+    assert "|" in torus and "zmin" in torus
+    (cone,) = [pair for pair, kind in found.items() if kind is Kind.CIRCULAR_CONE]
+    assert "zmax" in cone and "|" not in cone
 
 
 def test_sheet_about_an_apex() -> None:
@@ -94,9 +106,6 @@ def test_sheet_about_an_apex() -> None:
 
 def test_naming_costs_little() -> None:
     """Less than a tenth of a skeleton's time, equations included."""
-    import decomp
-    from tests.solids import SOLIDS
-
     skeleton_of("blind hole")
     start = time.process_time()
     skeleton = decomp.skeleton(SOLIDS["blind hole"].make())
