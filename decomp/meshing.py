@@ -23,7 +23,7 @@ from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.faces import faces_of
-from decomp.tetra.features import OF_LENGTH, fitting_epsilon, usual_epsilon
+from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
@@ -37,8 +37,10 @@ from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
-CHORD = 0.4
-"""How far triangles may be off their surfaces, in parts of epsilon."""
+CHORD, COARSEST = 0.4, 0.6
+"""How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
+SHORTEST = 7.0
+"""The shortest edges are at least so many epsilons long."""
 
 Progress = Callable[[str, float], None]
 
@@ -88,12 +90,14 @@ def mesh(
     wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
     sizes = region_sizes(geometry, wanted)
-    made, epsilon = _surface(geometry, maker, float(sizes.min()), cells == "face")
+    by_face = cells == "face"
+    made, epsilon = _surface(geometry, maker, float(sizes.min()), by_face)
     tell("sizing", 0.3)
     wish = wishes(geometry, made, wanted)
-    settings = Settings(
-        float(wish.lengths.max()), min(epsilon, OF_LENGTH * float(wish.lengths.min()))
-    )
+    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
+    if made.tolerance > COARSEST * epsilon:
+        made = maker.made(CHORD * epsilon, by_face)
+    settings = Settings(float(wish.lengths.max()), epsilon)
     field = size_field(geometry, wish, sizes)
     known = cell_map(made)
     plan = layout(made, known)

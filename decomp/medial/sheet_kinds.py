@@ -59,7 +59,9 @@ class SheetKind:
 
     @property
     def degree(self) -> int | None:
-        """Of its equation."""
+        """Of its equation, as far as that is known."""
+        if self.surface is not None:
+            return self.surface.degree
         return None if self.polynomial is None else self.polynomial.degree
 
     def equation(self, digits: int = 9) -> str | None:

@@ -5,6 +5,7 @@ the docstrings call the paper.
 """
 
 from decomp.parity import Parity
+from decomp.voronoi.conic_site import ConicSite
 from decomp.voronoi.curve_site import CurveSite
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial
@@ -23,6 +24,7 @@ from decomp.voronoi.surface import VoronoiSurface, site_of, surface
 __all__ = [
     "CarrierSite",
     "ConeSite",
+    "ConicSite",
     "CurveSite",
     "CylinderSite",
     "Kind",

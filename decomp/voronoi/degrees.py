@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from decomp.errors import InputError
+from decomp.voronoi.conic_site import ConicSite
 from decomp.voronoi.elimination import by_subtraction, in_two_steps, squarefree
 from decomp.voronoi.exact import Vector
 from decomp.voronoi.polynomial import D, X, rational
@@ -45,6 +46,36 @@ GENERAL_DEGREE: dict[tuple[str, str], int] = {
     ("line", "line"): 2,
     ("line", "circle"): 4,
     ("circle", "circle"): 4,
+    ("plane", "ellipse"): 8,
+    ("sphere", "ellipse"): 12,
+    ("cylinder", "ellipse"): 16,
+    ("cone", "ellipse"): 16,
+    ("torus", "ellipse"): 24,
+    ("point", "ellipse"): 6,
+    ("line", "ellipse"): 8,
+    ("circle", "ellipse"): 12,
+    ("plane", "hyperbola"): 8,
+    ("sphere", "hyperbola"): 12,
+    ("cylinder", "hyperbola"): 16,
+    ("cone", "hyperbola"): 16,
+    ("torus", "hyperbola"): 24,
+    ("point", "hyperbola"): 6,
+    ("line", "hyperbola"): 8,
+    ("circle", "hyperbola"): 12,
+    ("plane", "parabola"): 6,
+    ("sphere", "parabola"): 10,
+    ("cylinder", "parabola"): 12,
+    ("cone", "parabola"): 12,
+    ("torus", "parabola"): 20,
+    ("point", "parabola"): 5,
+    ("line", "parabola"): 6,
+    ("circle", "parabola"): 10,
+    ("ellipse", "ellipse"): 28,
+    ("ellipse", "parabola"): 22,
+    ("ellipse", "hyperbola"): 28,
+    ("parabola", "parabola"): 17,
+    ("parabola", "hyperbola"): 22,
+    ("hyperbola", "hyperbola"): 28,
 }
 """By the names of the sites: of the even surface, and of the odd one where there is one.
 
@@ -65,7 +96,13 @@ def general_degree(one: str, two: str) -> int:
         raise InputError(f"no degree is known for {one} and {two}") from None
 
 
-def degree_on_line(f: CarrierSite, g: CarrierSite, e: int, start: Vector, way: Vector) -> int:
+def degree_on_line(
+    f: CarrierSite | ConicSite,
+    g: CarrierSite | ConicSite,
+    e: int,
+    start: Vector,
+    way: Vector,
+) -> int:
     """The degree of s_f = e s_g, found by eliminating d on the line start + t way only.
 
     It is the degree of the squarefree equation if the line is in general position.

@@ -5,11 +5,12 @@ from __future__ import annotations
 from flint import fmpq
 
 from decomp.errors import InputError
+from decomp.voronoi.conic_site import ConicSite
 from decomp.voronoi.polynomial import RING, Polynomial, Raw
 from decomp.voronoi.sites import CarrierSite
 
 
-def eliminate(f: CarrierSite, g: CarrierSite, e: int) -> Polynomial:
+def eliminate(f: CarrierSite | ConicSite, g: CarrierSite | ConicSite, e: int) -> Polynomial:
     """The squarefree polynomial of the surface s_f = e s_g.
 
     It is found by one subtraction where that leaves no d, in two steps where it leaves d linear

@@ -15,7 +15,9 @@ from decomp.errors import GeometryError, InputError
 from decomp.parity import Parity
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, dot, norm
+from decomp.voronoi.conic_site import ConicSite, of_conic
 from decomp.voronoi.curve_site import of_curve
+from decomp.voronoi.degrees import general_degree
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import exact, floats, minus
 from decomp.voronoi.kinds import Kind
@@ -24,6 +26,8 @@ from decomp.voronoi.recognise import recognise
 from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import CarrierSite, SphereSite, VoronoiSite, of_carrier
 
+ALGEBRAIC = (CarrierSite, ConicSite)
+"""Sites whose offsets have an equation."""
 NEWTON_STEPS = 40
 """Steps of a projection; it converges quadratically, within about six from close by."""
 HALVINGS = 12
@@ -56,17 +60,22 @@ class VoronoiSurface:
     def polynomial(self) -> Polynomial | None:
         """The implicit polynomial, which vanishes on the surface and perhaps elsewhere.
 
-        None for an empty surface and for edge curves whose distance has no known equation.
+        None for an empty surface, for edge curves whose distance has no known equation, and
+        between two conics: it has thousands of terms.
         """
         if self.shape is not None:
             return self._known
-        if isinstance(self.f, CarrierSite) and isinstance(self.g, CarrierSite):
+        if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
+            return None
+        if isinstance(self.f, ALGEBRAIC) and isinstance(self.g, ALGEBRAIC):
             return eliminate(self.f, self.g, self.parity.sign)
         return None
 
     @property
     def degree(self) -> int | None:
-        """Of the polynomial, None if there is none."""
+        """Of the polynomial; between two conics in general position; else None."""
+        if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
+            return general_degree(self.f.name, self.g.name)
         return None if self.polynomial is None else self.polynomial.degree
 
     @property
@@ -136,7 +145,7 @@ def site_of(thing: VoronoiSite | Carrier | Curve | ArrayLike) -> VoronoiSite:
     if isinstance(thing, Carrier):
         return of_carrier(thing)
     if isinstance(thing, Curve):
-        return of_curve(thing)
+        return of_conic(thing) or of_curve(thing)
     values: Any = thing
     if np.ndim(values) != 1 or len(values) != 3:
         raise InputError(f"a site is a carrier, a curve or a point of three numbers, got {thing!r}")
