@@ -244,6 +244,12 @@ def _touched(
     return np.asarray(inside & (gap <= 1e-9 * incidence.boundary.diagonal))
 
 
+LOOKS = 9
+"""At so many points of a part it is looked which faces are touched."""
+TOWARD = 0.9
+"""How far from a centre to a contact, as a part of the radius, the nearest site is asked for."""
+
+
 class _Search:
     """Looks for the zeros of the depth along one locus."""
 
@@ -319,7 +325,21 @@ class _Search:
         if _touched(self._index, self._incidence, centre, ways, radius).sum() < 2:
             return None
         ends = locus.point(np.array([start, end]))
-        return ReflexivePart(self._sites, locus, start, end, ends, others)
+        return ReflexivePart(self._held(start, end), locus, start, end, ends, others)
+
+    def _held(self, start: float, end: float) -> tuple[int, ...]:
+        """The faces that are touched from a part of the locus."""
+        if len(self._sites) == 1:
+            return self._sites
+        toward = []
+        for u in np.linspace(start, end, LOOKS):
+            at = np.array([u])
+            ways = self._locus.touched(float(u), AROUND)
+            toward.append(self._locus.point(at) + TOWARD * self._locus.radius(at) * ways)
+        found = self._index.nearest(np.concatenate(toward))
+        short = (1 - TOWARD) * np.repeat(self._locus.radius(np.linspace(start, end, LOOKS)), AROUND)
+        touched = found.distance >= short - self._zero
+        return tuple(s for s in self._sites if s in set(found.site[touched].tolist()))
 
     def _end(self, u: float, sense: float) -> tuple[float, int]:
         """Where the zeros end on one side of u, and the site that is nearer beyond."""

@@ -8,14 +8,15 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.carriers import Sphere
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.complex.domains import Domain, domain_of
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
+from decomp.medial.polar import around_locus
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.unrolled import unrolled
 from decomp.sites.site import SiteKind
+from decomp.tracing.loci import locus_gap
 from decomp.vectors import Array, norm, place
 
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
@@ -70,6 +71,8 @@ class SheetDomains:
             lambda at: self._tests.touches(own, other, *domain.lift(at)),
         )
         uv = domain.to_plane(feet[:, column], points)
+        domain = around_locus(domain, uv, self._locus_gap(own, points) <= AT_LOCUS * self._size)
+        uv = domain.to_plane(feet[:, column], points)
         if flat is not None and len(cKDTree(uv).query_pairs(MERGED * self._size)):
             return Drawing(flat, None, 0)
         return Drawing(uv, domain, column)
@@ -92,16 +95,14 @@ class SheetDomains:
         """Which site's footprint to use: simple carriers first, none whose locus is reached."""
 
         def cost(column: int) -> int:
-            it = self._incidence.sites[pair[column]]
-            rank = self._rank(pair[column])
-            if it.kind is SiteKind.FACE:
-                face = self._boundary.faces[it.index]
-                carrier = self._boundary.carriers[face.carrier]
-                if reflexive_gap(carrier, face.outward, points).min() <= AT_LOCUS * self._size:
-                    rank += 10
-            return rank
+            reached = self._locus_gap(pair[column], points).min() <= AT_LOCUS * self._size
+            return self._rank(pair[column]) + (10 if reached else 0)
 
         return min((0, 1), key=cost)
+
+    def _locus_gap(self, site: int, points: Array) -> Array:
+        """Distance (k,) of points from a site's reflexive locus."""
+        return locus_gap(self._boundary, self._incidence.sites, (site,), points)
 
     def _domain(self, site: int, points: Array, feet: Array, surface: SheetSurface) -> Domain:
         it = self._incidence.sites[site]

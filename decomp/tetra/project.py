@@ -4,6 +4,7 @@
 2. Those are tried again, a few that do not touch at a time, after the nodes around them have been
    moved to better places along what they are on.
 3. What is left of nodes on lines and corners is put on one surface at least.
+4. Nodes inside, and on surfaces along them, are smoothed.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 
 from decomp.complex.refine_elements import Elements
 from decomp.tetra.faces import least_dihedral
+from decomp.tetra.smoothing import smoothed
 from decomp.tetra.targets import SURFACE, Targets, placed
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -99,7 +101,22 @@ class Projector:
             bad = np.flatnonzero(self._quality < WORST)
             if not len(bad) or not self._better(np.unique(self._tets[bad])):
                 break
+        self._smooth()
         return Projected(self._points, np.sort(self._targets.nodes[~complete]))
+
+    def _smooth(self) -> None:
+        """Better angles all over; nodes on lines and corners stay."""
+        free = np.bincount(self._tets.reshape(-1), minlength=len(self._points)) > 0
+        free[self._targets.nodes] = False
+        held = np.zeros(len(free), dtype=np.bool_)
+        held[self._targets.nodes] = self._done & (self._dimension == SURFACE)
+
+        def place(nodes: Ints, wanted: Array) -> tuple[Array, Bools]:
+            rows = self._row[nodes]
+            on = self._dimension[rows], self._element[rows]
+            return placed(self._elements, self._corners, *on, wanted)
+
+        self._points = smoothed(self._points, self._tets, free, held, place)
 
     def _goals(self, rows: Ints) -> tuple[Array, Bools]:
         return placed(

@@ -30,6 +30,8 @@ SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
+CANCELLED = 0.6
+"""Faces bent inwards do not quite gain what others lose: this part of both counts all the same."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
 STEP = 1.25
@@ -129,7 +131,7 @@ def _curved(
     region = surface.regions[number]
     mesh = surface.complex
     found = []
-    change = 0.0
+    change = total = 0.0
     for face, sides in zip(region.boundary.faces, region.face_sides, strict=True):
         triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
         some, which = samples(mesh.points, triangles, largest)
@@ -142,12 +144,13 @@ def _curved(
             own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, 1e-300))
         own = np.maximum(own, LEAST * largest)
         share = (area / np.bincount(which, minlength=len(area)))[which]
-        change += face.outward * float((share * own**2 * (low + high)).sum()) / 16
+        lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
+        change, total = change + lost, total + abs(lost)
         limit = option_number(face.options, "maxh")
         if limit is not None and limit > 0:
             own = np.minimum(own, limit)
         found.append((some, own, bend))
-    change = abs(change / region.boundary.volume)
+    change = max(abs(change), CANCELLED * total) / abs(region.boundary.volume)
     free = wanted.size is None and wanted.per_circle is None
     shrunk = sqrt(ASKED / change) if free and change > VOLUME else 1.0
     return [

@@ -43,6 +43,12 @@ def spoke() -> Solid:
     )
 
 
+def grooved() -> Solid:
+    """A shaft with a round groove: both faces' reflexive loci are the axis."""
+    ring = Torus((0, 0, 2), (0, 0, 1), 1.2, 0.4, name="groove")
+    return Cylinder((0, 0, 0), (0, 0, 4), 1, name="shaft") - ring
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -58,4 +64,5 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "tapered tee": lambda: branched(Cone((0, 0, 0), 0.6, (0, 0, 3), 0.3, name="branch")),
     "bulge": bulge,
     "spoke": spoke,
+    "grooved shaft": grooved,
 }

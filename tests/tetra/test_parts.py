@@ -16,6 +16,7 @@ from decomp.tetra.content import contents
 from decomp.tetra.faces import faces_of, least_dihedral, volumes
 from decomp.tetra.field import kuhn
 from decomp.tetra.project import Projector
+from decomp.tetra.smoothing import smoothed
 from decomp.tetra.splitting import freed, held
 from decomp.tetra.surface import SurfaceMaker
 from decomp.tetra.targets import SURFACE, Targets, polyline_distance
@@ -96,13 +97,33 @@ def test_nodes_are_moved_together() -> None:
 
 def test_a_node_that_would_invert_stays_and_is_counted() -> None:
     points, tets = grid(3)
-    top = np.flatnonzero(points[:, 2] == 1)
     lone = np.flatnonzero((points == np.array([0, 0, 1])).all(axis=1))
     plane = on_plane(-0.5)
     moved = Projector(points, tets, targets_of(lone), plane, np.empty((0, 3))).projected()
     assert moved.left.tolist() == lone.tolist()
     assert (volumes(moved.points, tets) > 0).all()
-    assert (moved.points[top, 2] == 1).all()
+    assert (moved.points[lone] == points[lone]).all()
+
+
+def test_smoothing_makes_angles_better_and_keeps_what_is_held() -> None:
+    points, tets = grid(4)
+    inside = ((points > 0) & (points < 1)).all(axis=1)
+    top = (points[:, 2] == 1) & ((points[:, :2] > 0) & (points[:, :2] < 1)).all(axis=1)
+    random = np.random.default_rng(0)
+    points[inside] += 0.06 * random.uniform(-1, 1, size=(int(inside.sum()), 3))
+    assert (volumes(points, tets) > 0).all()
+
+    def onto_top(nodes: Ints, wanted: Array) -> tuple[Array, np.ndarray]:
+        assert top[nodes].all()
+        return wanted * [1, 1, 0] + [0, 0, 1], np.ones(len(nodes), dtype=np.bool_)
+
+    better = smoothed(points, tets, inside, top, onto_top)
+    before, after = least_dihedral(points, tets), least_dihedral(better, tets)
+    assert after.mean() > before.mean() + 1
+    assert after.min() >= min(before.min(), 20)
+    assert (better[top, 2] == 1).all()
+    still = ~(inside | top)
+    assert (better[still] == points[still]).all()
 
 
 def test_distance_from_a_polyline() -> None:

@@ -1,0 +1,77 @@
+"""Nodes moved to where the tetrahedra around them have better angles, many at a time.
+
+In each round nodes are chosen of which no two are neighbours, so that every tetrahedron has at most
+one of them and all moves can be judged together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from decomp.tetra.faces import EDGES, edges_of, least_dihedral
+from decomp.vectors import Array, Bools, Ints
+
+ROUNDS = 40
+TOWARDS = 0.6
+"""A node goes this part of the way to the middle of its neighbours."""
+SOUND = 20.0
+"""The least angle (degrees) at a node may fall, but not below this."""
+
+Place = Callable[[Ints, Array], tuple[Array, Bools]]
+
+
+def smoothed(
+    points: Array, tets: Ints, free: Bools, held: Bools, place: Place, seed: int = 0
+) -> Array:
+    """Better places for nodes.
+
+    Args:
+        points: (n, 3).
+        tets: (m, 4).
+        free: (n,) nodes that may go anywhere.
+        held: (n,) nodes that may move on their surfaces; they go towards the middle of those of
+            their neighbours that are not free.
+        place: puts such nodes (their numbers, and wanted places) onto their surfaces, and tells
+            which succeeded.
+        seed: of the choice of nodes.
+    """
+    points = np.array(points)
+    edges, _ = edges_of(tets, EDGES)
+    ends = np.concatenate([edges, edges[:, ::-1]])
+    counts = free[ends[:, 0]] | ~free[ends[:, 1]]
+    near = ends[counts]
+    number = np.maximum(np.bincount(near[:, 0], minlength=len(points)), 1)
+    movable = free | held
+    random = np.random.default_rng(seed)
+    quality = least_dihedral(points, tets)
+    for _ in range(ROUNDS):
+        rank = np.where(movable, random.random(len(points)), -1.0)
+        best = np.zeros(len(points))
+        np.maximum.at(best, ends[:, 0], rank[ends[:, 1]])
+        chosen = rank > best
+        middle = np.stack(
+            [
+                np.bincount(near[:, 0], points[near[:, 1], k], minlength=len(points))
+                for k in range(3)
+            ],
+            axis=1,
+        )
+        wanted = points + TOWARDS * (middle / number[:, None] - points)
+        on = np.flatnonzero(chosen & held)
+        wanted[on], good = place(on, wanted[on])
+        chosen[on[~good]] = False
+        rows = np.flatnonzero(chosen[tets].any(axis=1))
+        node = tets[rows][chosen[tets[rows]]]
+        moved = np.where(chosen[:, None], wanted, points)
+        new, old = least_dihedral(moved, tets[rows]), quality[rows]
+        gain = np.bincount(node, new - old, minlength=len(points))
+        low, before = np.full(len(points), np.inf), np.full(len(points), np.inf)
+        np.minimum.at(low, node, new)
+        np.minimum.at(before, node, old)
+        kept = chosen & (gain > 0) & (low >= np.minimum(before, SOUND))
+        points[kept] = wanted[kept]
+        done = kept[node]
+        quality[rows[done]] = new[done]
+    return points
