@@ -1,8 +1,9 @@
 """Tell what the sheets of many models lie on: writes docs/sheets.md.
 
-    python -m benchmarks.sheet_kinds_table [SECONDS]
+    python -m benchmarks.sheet_kinds_table SECONDS [NAME ...]
 
-Models are the shared table of solids and the corpus, each given so many CPU seconds (default 20).
+Models are the shared table of solids and the corpus, or some by name, each given so many CPU
+seconds. Rows of other models stay as they are. The page is written after every model.
 """
 
 from __future__ import annotations
@@ -37,13 +38,12 @@ for naming all sheets and finding their degrees, as part of the skeleton's.
 """
 
 
-def row(name: str, skeleton: Skeleton, seconds: float, total: Counter[str]) -> str:
+def row(name: str, skeleton: Skeleton, seconds: float) -> str:
     """One line of the table."""
     start = time.process_time()
     kinds = [sheet_kinds(skeleton, region) for region in skeleton.regions]
     words = Counter(_word(kind) for own in kinds for kind in own)
     share = (time.process_time() - start) / seconds
-    total.update(words)
     off, gap = 0.0, 0.0
     for region, own in zip(skeleton.regions, kinds, strict=True):
         for sheet, kind in zip(region.sheets, own, strict=True):
@@ -68,29 +68,45 @@ def _word(kind: SheetKind) -> str:
     return " + ".join([f"{kind.kind.value}{degree}", *map(_word, kind.also)])
 
 
-def main(limit: int) -> None:
-    """Compute all models and write the page."""
+def main(limit: int, names: list[str]) -> None:
+    """Compute models and write their rows."""
     decomp.skeleton(SOLIDS["blind hole"].make())  # compiles the kernels
-    lines, missing, total = [], [], Counter[str]()
-    for name in (*SOLIDS, *FILES):
+    rows = known_rows()
+    for name in names or [*SOLIDS, *FILES]:
         start = time.process_time()
         try:
             with at_most(limit):
                 skeleton = decomp.skeleton(source_of(name))
-        except TimeoutError:
-            missing.append(f"{name} (not within {limit} s)")
+        except (TimeoutError, DecompError) as error:
+            print(f"{name}: {str(error) or 'out of time'}", flush=True)
             continue
-        except DecompError as error:
-            missing.append(f"{name} ({str(error).splitlines()[0]})")
-            continue
-        lines.append(row(name, skeleton, time.process_time() - start, total))
-        print(lines[-1], flush=True)
-    sums = "\n".join(f"- {n} {word}" for word, n in total.most_common())
-    text = f"{HEAD}{chr(10).join(lines)}\n\n## All together\n\n{sums}\n"
-    if missing:
-        text += "\n## Not computed\n\n" + "\n".join(f"- {m}" for m in missing) + "\n"
-    PAGE.write_text(text, encoding="utf-8")
+        rows[name] = row(name, skeleton, time.process_time() - start)
+        print(rows[name], flush=True)
+        order = [n for n in (*SOLIDS, *FILES) if n in rows]
+        lines = "\n".join(rows[n] for n in order)
+        PAGE.write_text(f"{HEAD}{lines}\n\n{sums(rows)}", encoding="utf-8")
+
+
+def known_rows() -> dict[str, str]:
+    """The rows of the page as it is, by model."""
+    if not PAGE.exists():
+        return {}
+    lines = PAGE.read_text(encoding="utf-8").splitlines()
+    rows = [line for line in lines if line.startswith("| ") and " | " in line][2:]
+    return {line.split(" | ")[0][2:]: line for line in rows}
+
+
+def sums(rows: dict[str, str]) -> str:
+    """How many sheets of each kind there are in all rows."""
+    total: Counter[str] = Counter()
+    for line in rows.values():
+        for part in line.split(" | ")[2].split(", "):
+            number, _, word = part.partition(" ")
+            if word:
+                total[word] += int(number)
+    listed = "\n".join(f"- {n} {word}" for word, n in total.most_common())
+    return f"All together, in {len(rows)} models:\n\n{listed}\n"
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 20)
+    main(int(sys.argv[1]), sys.argv[2:])

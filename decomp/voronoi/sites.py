@@ -6,8 +6,7 @@ Notation: s is the signed distance, positive outside; e is +1 or -1; d the offse
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from math import atan2
@@ -18,16 +17,7 @@ import numpy as np
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.errors import InputError
 from decomp.vectors import Array, dot, norm
-from decomp.voronoi.exact import (
-    Vector,
-    exact,
-    exact_direction,
-    exact_vector,
-    floats,
-    inner,
-    length,
-    unit,
-)
+from decomp.voronoi.exact import Vector, exact, exact_vector, floats, length, unit
 from decomp.voronoi.polynomial import (
     D,
     Raw,
@@ -36,94 +26,18 @@ from decomp.voronoi.polynomial import (
     squared_distance,
     squared_distance_from_line,
 )
+from decomp.voronoi.site_base import CarrierSite, VoronoiSite
 
-DIRECTIONS = ("normal", "axis")
-POINTS = ("point", "centre", "apex")
-
-
-class VoronoiSite(ABC):
-    """A site; parameters may be given as ints, fractions, strings like "1/3" or floats."""
-
-    @property
-    @abstractmethod
-    def name(self) -> str:
-        """In the field's words."""
-
-    @property
-    @abstractmethod
-    def reference(self) -> Vector:
-        """A point by which the site is placed."""
-
-    @property
-    @abstractmethod
-    def size(self) -> float:
-        """Its largest radius, 0 if it has none."""
-
-    @property
-    def two_sided(self) -> bool:
-        """Whether it has an inside, so that odd Voronoi surfaces exist."""
-        return True
-
-    @abstractmethod
-    def signed_distance(self, p: Array) -> Array:
-        """Distances (...) of points (..., 3), negative inside."""
-
-    @abstractmethod
-    def foot(self, p: Array) -> Array:
-        """Nearest points (..., 3) on the site."""
-
-    def gradient(self, p: Array) -> Array:
-        """Gradients (..., 3) of the signed distance; zero at points of a site without inside."""
-        s = self.signed_distance(p)[..., None]
-        away = p - self.foot(p)
-        return np.where(s != 0, away / np.where(s != 0, s, 1.0), 0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class CarrierSite(VoronoiSite):
-    """A site whose distance is that of a carrier, possibly of radius zero."""
-
-    kind: ClassVar[str]
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            value = getattr(self, field.name)
-            what = f"{field.name} of a {self.kind}"
-            if field.name in DIRECTIONS:
-                value = exact_direction(value, what)
-            elif field.name in POINTS:
-                value = exact_vector(value, what)
-            else:
-                value = exact(value, what)
-                if value < 0 and field.name in ("radius", "major", "minor"):
-                    raise InputError(f"{what} must not be negative, got {value}")
-            object.__setattr__(self, field.name, value)
-
-    @property
-    def name(self) -> str:
-        return self.kind
-
-    @property
-    @abstractmethod
-    def carrier(self) -> Carrier:
-        """The carrier in floating point."""
-
-    @abstractmethod
-    def offset(self, e: int) -> Raw:
-        """The polynomial in x, y, z, d of the points where s = e d (the paper's Table 1).
-
-        It vanishes too where s, continued through the reflexive locus, is e d: the other nappe
-        of a cone, the inner points of a sphere.
-        """
-
-    def signed_distance(self, p: Array) -> Array:
-        return self.carrier.signed_distance(p)
-
-    def foot(self, p: Array) -> Array:
-        return self.carrier.foot(p)
-
-    def gradient(self, p: Array) -> Array:
-        return self.carrier.normal(p)
+__all__ = [
+    "CarrierSite",
+    "ConeSite",
+    "CylinderSite",
+    "PlaneSite",
+    "SphereSite",
+    "TorusSite",
+    "VoronoiSite",
+    "of_carrier",
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -335,14 +249,6 @@ class TorusSite(CarrierSite):
         tube = (rational(self.minor) + e * D) ** 2
         major2 = rational(self.major) ** 2
         return (squared_distance(self.centre) + major2 - tube) ** 2 - 4 * major2 * self.square
-
-
-def parallel(a: Vector, b: Vector) -> int:
-    """+1 or -1 if two directions are exactly the same or opposite, else 0."""
-    product = inner(a, b)
-    if product**2 != inner(a, a) * inner(b, b):
-        return 0
-    return 1 if product > 0 else -1
 
 
 def of_carrier(carrier: Carrier) -> CarrierSite:
