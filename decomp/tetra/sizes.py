@@ -30,8 +30,8 @@ SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
-CANCELLED = 0.6
-"""Faces bent inwards do not quite gain what others lose: this part of both counts all the same."""
+CANCELLED = 0.3
+"""Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
 STEP = 1.25
@@ -150,9 +150,14 @@ def _curved(
         if limit is not None and limit > 0:
             own = np.minimum(own, limit)
         found.append((some, own, bend))
-    change = max(abs(change), CANCELLED * total) / abs(region.boundary.volume)
-    free = wanted.size is None and wanted.per_circle is None
-    shrunk = sqrt(ASKED / change) if free and change > VOLUME else 1.0
+    content = abs(region.boundary.volume)
+    change, part = abs(change) / content, CANCELLED * total / content
+    shrunk = 1.0
+    if wanted.size is None and wanted.per_circle is None:
+        if change > VOLUME:
+            shrunk = sqrt(ASKED / change)
+        if part > VOLUME:
+            shrunk = min(shrunk, sqrt(VOLUME / part))
     return [
         (some, np.where(bend > 1e-12 / largest, shrunk * own, own)) for some, own, bend in found
     ]
