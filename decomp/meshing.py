@@ -32,6 +32,7 @@ from decomp.tetra.project import Projector
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.splitting import freed
+from decomp.tetra.strayed import strayed
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
@@ -115,7 +116,8 @@ def mesh(
     finder = Finder(geometry, made, known, plan, elements, epsilon)
     corners = plan.complex.points
     moved = Projector(points, tets, finder.targets(points, tagged), elements, corners).projected()
-    points, triangles, left = moved.points, tagged.triangles, moved.left
+    points, triangles = moved.points, tagged.triangles
+    left = np.union1d(moved.left, strayed(points, tagged, plan, elements, geometry.diagonal))
     if order == 2:
         tell("curving", 0.95)
         curved = quadratic(points, tets, tagged, finder, elements, corners)

@@ -15,6 +15,7 @@ import numpy as np
 
 from decomp.complex.refine_elements import Elements
 from decomp.tetra.faces import least_dihedral
+from decomp.tetra.lifting import lifted
 from decomp.tetra.smoothing import smoothed
 from decomp.tetra.targets import SURFACE, Targets, placed
 from decomp.vectors import Array, Bools, Ints, norm
@@ -117,6 +118,8 @@ class Projector:
             return placed(self._elements, self._corners, *on, wanted)
 
         self._points = smoothed(self._points, self._tets, free, held, place)
+        # nodes on surfaces stay: a try may lead beyond the face that they are on
+        self._points = lifted(self._points, self._tets, free)
 
     def _goals(self, rows: Ints) -> tuple[Array, Bools]:
         return placed(

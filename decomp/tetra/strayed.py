@@ -1,0 +1,35 @@
+"""Nodes that are off the surface of a boundary triangle that has them.
+
+Where faces meet tangentially a node can be on one face and in a triangle of the other.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.complex.refine_elements import Elements
+from decomp.tetra.layout import Layout
+from decomp.tetra.tagging import Tagged
+from decomp.vectors import Array, Ints
+
+EXACT = 1e-12
+"""Nodes nearer to a surface than this part of the model's diagonal are on it."""
+
+
+def strayed(
+    points: Array, tagged: Tagged, plan: Layout, elements: Elements, diagonal: float
+) -> Ints:
+    """The nodes, ascending.
+
+    Args:
+        points: (n, 3) nodes.
+        tagged: triangles with their patches.
+        plan: tells which patches are faces or interfaces.
+        elements: of its complex.
+        diagonal: of the model.
+    """
+    outer = np.array([bool(sides) for sides in plan.sides])[tagged.patches]
+    patches = np.repeat(tagged.patches[outer], 3)
+    nodes, patches = np.unique(np.stack([tagged.triangles[outer].reshape(-1), patches]), axis=1)
+    gap = elements.gap(np.asarray(elements.of_patch)[patches], points[nodes])
+    return np.unique(nodes[gap > EXACT * diagonal])
