@@ -13,31 +13,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-
 from decomp.certificate.certificate import VOLUME
-from decomp.complex.boundary import BoundaryMesh, boundary_mesh
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
+from decomp.drafts import SAMPLES, SHARE, drafted, traced
 from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
-from decomp.medial.assembly import RegionAssembler, RegionParts
-from decomp.medial.region_curves import RegionCurves, region_curves
 from decomp.medial.result import Skeleton
-from decomp.medial.sheets import CrossingError, MissingCurveError
-from decomp.medial.trim_maker import BoundaryVertices
+from decomp.medial.sheets import MissingCurveError
 from decomp.whole import Whole
 
 TOLERANCE = 5e-4
 """Default chord tolerance, relative to the model's diagonal."""
-SHARE = 0.7
-"""The part of the tolerance that curves may use up."""
-SAMPLES = (2000, 20000)
-"""Boundary points from which seams are looked for, attempt by attempt."""
-FINER = 4
-"""How much finer curves are sampled where they cross."""
-LEVELS = 5
+TRACING = 0.6
+"""The part of the whole that tracing is taken for."""
 FINENESSES = 4
 """How often the tolerance is made finer for the volume's sake."""
 
@@ -89,17 +79,16 @@ class _Attempt:
     def result(self) -> tuple[Skeleton | None, list[str]]:
         """The skeleton, or None and what is wrong with it."""
         geometry = self._geometry
-        curves = []
-        for number, boundary in enumerate(geometry.regions):
-            self._tell(f"tracing {boundary.name}", 0.6 * number / len(geometry.regions))
-            curves.append(region_curves(geometry.index, boundary, number, self._samples))
+        curves = traced(
+            geometry, self._samples, lambda what, done: self._tell(what, TRACING * done)
+        )
         fineness = fine_enough(geometry, self._relative, SHARE)
         for left in reversed(range(FINENESSES)):
-            self._tell("triangulating sheets", 0.6)
-            surface, parts = self._parts(curves, fineness * geometry.diagonal)
+            self._tell("triangulating sheets", TRACING)
+            draft = drafted(geometry, curves, fineness * geometry.diagonal)
             self._tell("refining", 0.7)
-            whole = Whole(geometry, self._relative, fineness, surface, curves, parts)
-            error = volume_error(geometry, surface, whole.complex)
+            whole = Whole(geometry, self._relative, fineness, curves, draft)
+            error = volume_error(geometry, draft.surface, whole.complex)
             if error > VOLUME and left:
                 fineness = finer(fineness, error)
                 continue
@@ -109,44 +98,3 @@ class _Attempt:
                 break
             fineness = finer(fineness, result.volume_error)
         return result.skeleton, result.failures
-
-    def _parts(
-        self, curves: list[RegionCurves], tolerance: float
-    ) -> tuple[BoundaryMesh, list[RegionParts]]:
-        """Triangulate; where curves cross in a footprint, sample them more finely."""
-        tolerance *= SHARE
-        nodes = [point for region in curves for point in region.turning_feet()]
-        for level in range(LEVELS):
-            try:
-                surface = boundary_mesh(self._geometry, tolerance, nodes=nodes)
-                return surface, self._regions(curves, surface, tolerance)
-            except CrossingError:
-                if level == LEVELS - 1:
-                    raise
-                tolerance /= FINER
-        raise AssertionError
-
-    def _regions(
-        self, curves: list[RegionCurves], surface: BoundaryMesh, tolerance: float
-    ) -> list[RegionParts]:
-        points = surface.points
-        parts = []
-        for number, region in enumerate(curves):
-            vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
-            maker = RegionAssembler(self._geometry.index, region, vertices, points, tolerance)
-            parts.append(maker.assemble())
-            points = np.concatenate([points, parts[-1].points])
-        return parts
-
-
-def _vertices_of(surface: BoundaryMesh, region: int, count: int) -> BoundaryVertices:
-    """Where a region's vertices and edges are among the points of the boundary."""
-    edges = []
-    for run in surface.pieces.of_edge[region]:
-        joined = [surface.samples.vertices[piece][::sense] for piece, sense in run]
-        edges.append(np.concatenate([joined[0], *(line[1:] for line in joined[1:])]))
-    faces = []
-    for sides in surface.face_sides(region, count):
-        parts = [surface.patches[patch].patch.triangles[:, ::sense] for patch, sense in sides]
-        faces.append(np.concatenate([np.empty((0, 3), dtype=np.int64), *parts]))
-    return BoundaryVertices(surface.points, surface.pieces.of_vertex[region], edges, faces)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,14 +10,13 @@ import numpy as np
 from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.certificate.certificate import Certified, certified, explained, shortcomings
 from decomp.certificate.evidence import Evidence
-from decomp.complex.boundary import BoundaryMesh
-from decomp.complex.model import Complex, LineKind, Patch, PatchKind
+from decomp.complex.model import LineKind
 from decomp.complex.refine import refined
+from decomp.drafts import Draft
 from decomp.geometry import Geometry
-from decomp.medial.assembly import RegionParts
 from decomp.medial.described import RegionDescription
 from decomp.medial.region_curves import RegionCurves
-from decomp.medial.result import RegionSkeleton, Skeleton, TrimSurface
+from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.medial.trim_maker import owners
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array
@@ -47,30 +47,12 @@ class Whole:
         geometry: Geometry,
         relative: float,
         fineness: float,
-        surface: BoundaryMesh,
-        curves: list[RegionCurves],
-        parts: list[RegionParts],
+        curves: Sequence[RegionCurves],
+        draft: Draft,
     ) -> None:
         self._geometry, self._relative = geometry, relative
-        self._surface, self._curves, self._parts = surface, curves, parts
-        patches = [each.patch for each in surface.patches]
-        lines = list(surface.lines)
-        self._sheet_patch: list[list[int]] = []
-        self._trims: list[list[TrimSurface]] = []
-        self._line: list[list[int]] = []
-        for part in parts:
-            self._sheet_patch.append([len(patches) + k for k in range(len(part.sheets))])
-            patches += [Patch(PatchKind.SHEET, s.surface, s.triangles) for s in part.sheets]
-            own = []
-            for trim, patch in part.trims:
-                own.append(TrimSurface(len(patches), trim.faces))
-                patches.append(patch)
-            self._trims.append(own)
-            self._line.append([len(lines) + k for k in range(len(part.lines))])
-            lines += part.lines + part.rulings
-        points = np.concatenate([surface.points, *(part.points for part in parts)])
-        given = Complex(points, tuple(patches), tuple(lines))
-        self.complex, self._number = refined(given, fineness * geometry.diagonal)
+        self._curves, self._draft = curves, draft
+        self.complex, self._number = refined(draft.complex, fineness * geometry.diagonal)
 
     def result(self) -> Result:
         """The finished skeleton, or what its certificate lacks."""
@@ -104,7 +86,7 @@ class Whole:
     def _radius(self) -> Array:
         points = self.complex.points
         radius = np.zeros(len(points))
-        boundary = [p.triangles for p in self.complex.patches[: len(self._surface.patches)]]
+        boundary = [p.triangles for p in self.complex.patches[: len(self._draft.surface.patches)]]
         on = np.zeros(len(points), dtype=np.bool_)
         for triangles in boundary:
             on[triangles] = True
@@ -124,17 +106,17 @@ class Whole:
         drawn = RegionDescription(
             region_queries(geometry.index, number),
             curves,
-            self._parts[number],
+            self._draft.parts[number],
             mesh,
             radius,
             self._number,
-            self._sheet_patch[number],
-            self._line[number],
+            self._draft.sheet_patches[number],
+            self._draft.part_lines[number],
         )
         sheets, lines = drawn.sheets_and_lines()
         reflexive = drawn.reflexive()
-        face_sides = self._surface.face_sides(number, len(boundary.faces))
-        trims = self._trims[number]
+        face_sides = self._draft.surface.face_sides(number, len(boundary.faces))
+        trims = self._draft.trims[number]
         owner = owners(curves)
         cells_of_faces = face_cells(mesh, boundary, face_sides, sheets, trims, owner)
         cells = skeleton_cells(mesh, boundary, cells_of_faces, trims)

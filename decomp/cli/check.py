@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 from dataclasses import asdict
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.arguments import positive
 from decomp.errors import DecompError
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def register(commands: Any) -> None:
     parser.add_argument("mesh", type=Path, help="Gmsh .msh")
     parser.add_argument(
         "--epsilon",
-        type=_share,
+        type=positive,
         default=EPSILON,
         metavar="E",
         help="tetrahedra may reach 2 E into another cell, relative to the region's diagonal "
@@ -39,7 +39,7 @@ def register(commands: Any) -> None:
     )
     parser.add_argument(
         "--volume-error",
-        type=_share,
+        type=positive,
         default=VOLUME_ERROR,
         metavar="E",
         help=f"of a region, relative, at most (default {VOLUME_ERROR:g})",
@@ -96,13 +96,3 @@ def as_text(found: Checked, path: Path) -> list[str]:
     if not found.shortcomings:
         lines.append("  nothing falls short")
     return lines
-
-
-def _share(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
-    if not isfinite(value) or value <= 0:
-        raise argparse.ArgumentTypeError(f"must be above 0, not {text}")
-    return value

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from decomp.cli.arguments import add_output, positive
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
@@ -39,16 +40,7 @@ def register(commands: Any) -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="OUT",
-        help=f"file to write, ending in {', '.join(SUFFIXES)}; may be given several times "
-        "(default: the model's name with .msh, in this directory)",
-    )
+    add_output(parser, SUFFIXES, " (default: the model's name with .msh, in this directory)")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _size_options(parser)
     _tag_options(parser)
@@ -60,7 +52,7 @@ def _size_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("size of elements")
     group.add_argument(
         "--size",
-        type=_positive,
+        type=positive,
         metavar="H",
         help="largest edge, in model units (default: from the model)",
     )
@@ -72,7 +64,7 @@ def _size_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--circle",
-        type=_positive,
+        type=positive,
         metavar="N",
         help="at least N elements around a full circle",
     )
@@ -114,7 +106,7 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--timeout",
-        type=_positive,
+        type=positive,
         default=TIMEOUT,
         metavar="S",
         help=f"seconds that TetWild may take (default {TIMEOUT:g})",
@@ -177,16 +169,6 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
         )
         spent = stages.spent()
     return made, report(made, {each.name: each.volume for each in geometry.regions}, spent)
-
-
-def _positive(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
-    if not isfinite(value) or value <= 0:
-        raise argparse.ArgumentTypeError(f"must be above 0, not {text}")
-    return value
 
 
 def _count(text: str) -> int:

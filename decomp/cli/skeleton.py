@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import json
 from dataclasses import fields
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from decomp.cli.arguments import add_output
 
 if TYPE_CHECKING:
     from decomp.medial.result import Certificate, RegionSkeleton, Skeleton
@@ -25,15 +26,7 @@ def register(commands: Any) -> None:
         "told what it has.",
     )
     add_options(parser)
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        action="append",
-        default=[],
-        metavar="OUT",
-        help=f"file to write, ending in {', '.join(SUFFIXES)}; may be given several times",
-    )
+    add_output(parser, SUFFIXES)
     parser.add_argument("--boundary", action="store_true", help="write the boundary's faces too")
     parser.add_argument("--trims", action="store_true", help="write the trim surfaces too")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")

@@ -17,13 +17,11 @@ from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheets import SheetMaker, SheetPart
-from decomp.medial.trim_maker import BoundaryVertices, TrimMaker
+from decomp.medial.trim_maker import AT_END, BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.vectors import Array, Ints, norm, place
 
-AT_END = 1e-6
-"""Nodes nearer to the end of a reflexive locus than this part of the size are it."""
 ALONG_LOCI = 24
 """Chords at least along a reflexive curve to which trim surfaces lead."""
 

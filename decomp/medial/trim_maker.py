@@ -20,6 +20,9 @@ from decomp.medial.result import TrimSurface
 from decomp.medial.trim_surfaces import RuledSurface, strip
 from decomp.vectors import Array, Ints, cross, dot, norm, place
 
+AT_END = 1e-6
+"""Points nearer to each other than this part of the size are one."""
+
 
 @dataclass(frozen=True, eq=False)
 class BoundaryVertices:
@@ -142,6 +145,10 @@ class TrimMaker:
             stops = [*turns, turns[0] + period]
         below = [int(np.argmin(np.abs(lower_s - s))) for s in stops]
         above = [int(np.argmin(np.abs(upper_s - s))) for s in stops]
+        feet = curve.feet(np.array(stops))
+        off = norm(self._points[lower[below]] - feet) > AT_END * self._size
+        if off.any():
+            raise GeometryError(f"the edge has no vertex at {place(feet[np.argmax(off)])}")
         found = []
         for k, (first, last) in enumerate(itertools.pairwise(stops)):
             one, two = slice(below[k], below[k + 1] + 1), slice(above[k], above[k + 1] + 1)
@@ -204,7 +211,7 @@ class TrimMaker:
         ends = [self._vertex_at(run.points[k]) for k in (0, -1)]
         if run.resting:
             return np.array(ends), run.s[[0, -1]]
-        centres = _Centres(run.points, 1e-6 * self._size)
+        centres = _Centres(run.points, AT_END * self._size)
         line = [ends[0]]
         while line[-1] != ends[1]:
             step = self._next_on_locus(line, centres)
@@ -230,7 +237,7 @@ class TrimMaker:
     def _vertex_at(self, point: Array) -> int:
         gaps = norm(self._points - point)
         number = int(np.argmin(gaps))
-        if float(gaps[number]) > 1e-6 * self._size:
+        if float(gaps[number]) > AT_END * self._size:
             raise GeometryError(f"no reflexive curve leads to {place(point)}")
         return number
 
@@ -297,9 +304,7 @@ class TrimMaker:
             edge = incidence.sites[curve.sites[1]].index
             samples = incidence.boundary.edges[edge].samples
             ends = samples[0], samples[-1]
-            other = ends[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else ends[0]
             near = samples[1] if norm(ends[0] - foot) < norm(ends[1] - foot) else samples[-2]
-            del other
             return np.asarray(foot - near)
         assert isinstance(curve, EdgeNormals)
         second = incidence.sites[curve.sites[1]].index

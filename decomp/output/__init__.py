@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from decomp.errors import InputError
+from decomp.output.suffixes import known_suffix
 
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
@@ -23,11 +23,7 @@ def suffix_of(path: str | Path) -> str:
     Raises:
         InputError: it is none of `SUFFIXES`.
     """
-    suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        said = f"{suffix!r} is unknown" if suffix else "there is none"
-        raise InputError(f"{path}: {said} as a suffix for skeletons; use {', '.join(SUFFIXES)}")
-    return suffix
+    return known_suffix(path, SUFFIXES, "skeletons")
 
 
 def write(

@@ -11,32 +11,21 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from decomp.boundary.topology import RegionBoundary
 from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.cells.surface import is_closed
-from decomp.complex.boundary import BoundaryMesh, boundary_mesh
-from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.complex.model import Complex
 from decomp.complex.refine import refined
+from decomp.drafts import SAMPLES, Draft, drafted, traced
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.medial.assembly import RegionAssembler, RegionParts
-from decomp.medial.region_curves import RegionCurves, region_curves
+from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import Cell, Sheet, TrimSurface
-from decomp.medial.sheets import CrossingError, MissingCurveError
-from decomp.medial.trim_maker import BoundaryVertices, owners
+from decomp.medial.sheets import MissingCurveError
+from decomp.medial.trim_maker import owners
 from decomp.sites.site import Site
 from decomp.tetra.content import contents
-from decomp.vectors import Ints
 
-SHARE = 0.7
-"""The part of the tolerance that curves may use up."""
-FINER = 4.0
-LEVELS = 5
-"""How often, and how much more finely, curves are sampled where they cross."""
-SAMPLES = (2000, 20000)
-"""Boundary points from which seams are looked for, attempt by attempt."""
 VOLUME = 2e-3
 """How far the cells' volumes may sum up off the region's, relative to it."""
 
@@ -95,13 +84,9 @@ class SurfaceMaker:
         self._trace()
 
     def _trace(self) -> None:
-        curves = []
-        for number, boundary in enumerate(self._geometry.regions):
-            self._tell(f"tracing {boundary.name}")
-            curves.append(
-                region_curves(self._geometry.index, boundary, number, SAMPLES[self._tried])
-            )
-        self._curves = curves
+        self._curves = traced(
+            self._geometry, SAMPLES[self._tried], lambda what, _: self._tell(what)
+        )
         self._tried += 1
 
     def made(self, tolerance: float, by_face: bool) -> MeshSurface:
@@ -117,72 +102,31 @@ class SurfaceMaker:
         self._tell("triangulating sheets")
         while True:
             try:
-                surface, parts = self._parts(tolerance)
+                draft = drafted(self._geometry, self._curves, tolerance, with_trims=by_face)
                 break
             except MissingCurveError:
                 if self._tried == len(SAMPLES):
                     raise
                 self._trace()
-        return _assembled(self._geometry, self._curves, surface, parts, tolerance, by_face)
-
-    def _parts(self, tolerance: float) -> tuple[BoundaryMesh, list[RegionParts]]:
-        """Triangulate; where curves cross in a footprint, sample them more finely."""
-        along = SHARE * tolerance
-        for level in range(LEVELS):
-            try:
-                surface = boundary_mesh(self._geometry, along)
-                return surface, self._regions(surface, along)
-            except CrossingError:
-                if level == LEVELS - 1:
-                    raise
-                along /= FINER
-        raise AssertionError
-
-    def _regions(self, surface: BoundaryMesh, along: float) -> list[RegionParts]:
-        points = surface.points
-        parts = []
-        for number, curves in enumerate(self._curves):
-            vertices = _vertices(surface, number, len(curves.incidence.boundary.faces))
-            maker = RegionAssembler(self._geometry.index, curves, vertices, points, along)
-            parts.append(maker.assemble())
-            points = np.concatenate([points, parts[-1].points])
-        return parts
+        return _assembled(self._geometry, self._curves, draft, tolerance, by_face)
 
 
 def _assembled(
     geometry: Geometry,
     curves: Sequence[RegionCurves],
-    surface: BoundaryMesh,
-    parts: Sequence[RegionParts],
+    draft: Draft,
     tolerance: float,
     by_face: bool,
 ) -> MeshSurface:
-    """Join the parts, refine them to the tolerance, and put the cells together."""
-    patches = [each.patch for each in surface.patches]
-    lines = list(surface.lines)
-    sheets: list[dict[int, tuple[int, int]]] = []
-    trims: list[list[TrimSurface]] = []
-    for part in parts:
-        sheets.append({len(patches) + k: sheet.sites for k, sheet in enumerate(part.sheets)})
-        patches += [Patch(PatchKind.SHEET, s.surface, s.triangles) for s in part.sheets]
-        first = len(patches) if by_face else None
-        trims.append(
-            [
-                TrimSurface(-1 if first is None else first + k, trim.faces)
-                for k, (trim, _) in enumerate(part.trims)
-            ]
-        )
-        lines += part.lines
-        if by_face:
-            patches += [patch for _, patch in part.trims]
-            lines += part.rulings
-    points = np.concatenate([surface.points, *(part.points for part in parts)])
-    mesh, _ = refined(Complex(points, tuple(patches), tuple(lines)), tolerance)
+    """Refine a draft to the tolerance, and put the cells together."""
+    mesh, _ = refined(draft.complex, tolerance)
     regions = []
     for number, boundary in enumerate(geometry.regions):
-        sides = surface.face_sides(number, len(boundary.faces))
-        cells = _cells(mesh, curves[number], sides, sheets[number], trims[number], by_face)
-        regions.append(RegionSurface(boundary.name, boundary, sides, sheets[number], cells))
+        sides = draft.surface.face_sides(number, len(boundary.faces))
+        made = zip(draft.sheet_patches[number], draft.parts[number].sheets, strict=True)
+        sheets = {patch: sheet.sites for patch, sheet in made}
+        cells = _cells(mesh, curves[number], sides, sheets, draft.trims[number], by_face)
+        regions.append(RegionSurface(boundary.name, boundary, sides, sheets, cells))
     return _checked(MeshSurface(geometry.sites, mesh, tolerance, tuple(regions)))
 
 
@@ -225,16 +169,3 @@ def _checked(made: MeshSurface) -> MeshSurface:
             )
         regions.append(replace(region, cells=cells))
     return replace(made, regions=tuple(regions))
-
-
-def _vertices(surface: BoundaryMesh, region: int, count: int) -> BoundaryVertices:
-    """Where a region's vertices, edges and faces are among the points of the boundary."""
-    edges = []
-    for run in surface.pieces.of_edge[region]:
-        joined = [surface.samples.vertices[piece][::sense] for piece, sense in run]
-        edges.append(np.concatenate([joined[0], *(line[1:] for line in joined[1:])]))
-    faces: list[Ints] = []
-    for sides in surface.face_sides(region, count):
-        parts = [surface.patches[patch].patch.triangles[:, ::sense] for patch, sense in sides]
-        faces.append(np.concatenate([np.empty((0, 3), dtype=np.int64), *parts]))
-    return BoundaryVertices(surface.points, surface.pieces.of_vertex[region], edges, faces)

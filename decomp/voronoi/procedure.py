@@ -142,7 +142,10 @@ def _system(sides: list[_Side], w: Array) -> tuple[Array, Array]:
 
 
 def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> list[VoronoiPoint]:
-    """All solutions of the eight equations for two surfaces close to a point.
+    """The solutions of the eight equations for two surfaces close to a point.
+
+    Newton's method starts from every pair of feet of the point. Where it does not converge, or ends
+    in an apex, that pair gives none.
 
     Args:
         f, g: surfaces; points, lines and circles have no normals of their own.

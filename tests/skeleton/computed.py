@@ -52,16 +52,10 @@ def param(name: str, *values: object) -> pytest.ParameterSet:
     marks = []
     if name in UNFINISHED:
         reason = UNFINISHED[name]
-        marks.append(pytest.mark.xfail(strict=False, run="in time" not in reason, reason=reason))
+        marks.append(pytest.mark.xfail(reason=reason, strict=True))
     if name in SLOW | LONG:
         marks.append(pytest.mark.slow)
     return pytest.param(name, *values, marks=marks)
-
-
-def unfinished(name: str) -> pytest.MarkDecorator:
-    """A mark for a test of one model, where the model is known to fail."""
-    reason = UNFINISHED.get(name, "")
-    return pytest.mark.xfail(bool(reason), strict=False, run="in time" not in reason, reason=reason)
 
 
 def source_of(name: str) -> Solid | Path:

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from decomp.complex.model import LineKind
 from decomp.medial.result import Parity
 from tests.corpus.files import FILES
-from tests.skeleton.computed import region_of, unfinished
+from tests.skeleton.computed import region_of
 
 CURVED = 2e-3
 """Relative error allowed to the area or length of something curved."""
@@ -92,7 +92,6 @@ def test_cylinder() -> None:
     assert sorted(ends.tolist()) == [pytest.approx([0, 0, 1]), pytest.approx([0, 0, 2])]
 
 
-@unfinished("square cylinder")
 def test_axis_of_a_square_cylinder_shrinks_to_a_point() -> None:
     """With r = h / 2 the two cones meet in the middle."""
     rod = region_of("square cylinder")
@@ -142,7 +141,6 @@ def test_capsule_is_a_segment() -> None:
     assert sum(locus.length for locus in rod.parts.reflexive) == pytest.approx(2, rel=1e-12)
 
 
-@unfinished("cone")
 def test_cone() -> None:
     """The axis goes from the centre of the inscribed sphere to the apex."""
     cone = region_of("cone")

@@ -12,9 +12,11 @@ from decomp.carriers import Plane
 from decomp.complex.elements import CarrierSurface
 from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.complex.refine_elements import Elements
+from decomp.medial.region_curves import region_curves
 from decomp.tetra.content import contents
 from decomp.tetra.faces import faces_of, least_dihedral, volumes
 from decomp.tetra.field import kuhn
+from decomp.tetra.lifting import lifted
 from decomp.tetra.project import Projector
 from decomp.tetra.smoothing import smoothed
 from decomp.tetra.splitting import freed, held
@@ -156,3 +158,36 @@ def test_every_pair_of_a_bracket_s_cells_is_parted_once() -> None:
     kinds = [made.complex.patches[k].kind for k in listed]
     assert set(kinds) == {PatchKind.SHEET}
     assert all(around for around in plan.around_corner)
+
+
+def test_a_squashed_element_is_mended_and_the_boundary_stays() -> None:
+    points, tets = grid(4)
+    inside = ((points > 0) & (points < 1)).all(axis=1)
+    node = int(np.flatnonzero(inside)[13])
+    points[node] += [0.97 / 4, 0, 0]
+    assert least_dihedral(points, tets).min() < 3
+    mended = lifted(points, tets, inside)
+    assert least_dihedral(mended, tets).min() > 12
+    moved = np.flatnonzero((mended != points).any(axis=1))
+    assert node in moved
+    assert inside[moved].all()
+
+
+def test_trim_surfaces_of_face_cells_are_exact() -> None:
+    """Those over a saddle edge are cut along normals, which end in vertices of the edge."""
+    geometry = decomp.Geometry(SOLIDS["unequal tee"].make())
+    made = SurfaceMaker(geometry, lambda what: None).made(0.005 * geometry.diagonal, True)
+    feet = region_curves(geometry.index, geometry.regions[0], 0, 2000).turning_feet()
+    assert len(feet) >= 4
+    points = made.complex.points
+    for foot in feet:
+        # where centres turn back is a minimum, known to the root of rounding
+        assert np.linalg.norm(points - foot, axis=1).min() <= 1e-7 * geometry.diagonal
+    elements = Elements(made.complex)
+    trims = [k for k, p in enumerate(made.complex.patches) if p.kind is PatchKind.TRIM]
+    assert len(trims) >= 4
+    for k in trims:
+        vertices = np.unique(made.complex.patches[k].triangles)
+        numbers = np.full(len(vertices), elements.of_patch[k])
+        gap = elements.gap(numbers, points[vertices])
+        assert gap.max() <= 1e-9 * geometry.diagonal

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from decomp.errors import InputError
+from decomp.output.suffixes import known_suffix
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
@@ -23,11 +24,7 @@ def suffix_of(path: str | Path) -> str:
     Raises:
         InputError: it is none of `SUFFIXES`.
     """
-    suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        said = f"{suffix!r} is unknown" if suffix else "there is none"
-        raise InputError(f"{path}: {said} as a suffix for meshes; use {', '.join(SUFFIXES)}")
-    return suffix
+    return known_suffix(path, SUFFIXES, "meshes")
 
 
 def encoded(mesh: TetMesh, suffix: str, *, text: bool = False, version: str = "4.1") -> bytes:

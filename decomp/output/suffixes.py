@@ -1,0 +1,26 @@
+"""What the suffix of a file's name says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from decomp.errors import InputError
+
+
+def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
+    """The suffix of a path, in lower case.
+
+    Args:
+        path: of a file to write.
+        suffixes: that are known.
+        what: is to be written, in the plural.
+
+    Raises:
+        InputError: it is none of `suffixes`.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in suffixes:
+        said = f"{suffix!r} is unknown" if suffix else "there is none"
+        raise InputError(f"{path}: {said} as a suffix for {what}; use {', '.join(suffixes)}")
+    return suffix
