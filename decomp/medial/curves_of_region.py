@@ -27,6 +27,8 @@ from decomp.vectors import Array, Ints, norm
 ALONG = 16
 """Points by which a piece of trim or reflexive locus is first known."""
 BESIDE = 1e-5
+STEP = 1e-2
+"""Step of differences at a turning point, as a part of the interval that holds it."""
 RUN = 256
 """Samples by which it is seen where the centres over a normal curve turn back on a locus."""
 
@@ -144,15 +146,27 @@ def _locus_runs(
 def _turn(
     curve: NormalCurve, radius: Callable[[Array], Array], low: float, high: float, way: Array
 ) -> float:
-    """The parameter at which the centres have gone farthest in a direction (3,)."""
+    """The parameter at which the centres have gone farthest in a direction (3,).
 
-    def behind(s: float) -> float:
-        at = np.array([s])
-        centre = curve.feet(at) + radius(at)[:, None] * curve.directions(at)
-        return -float(centre[0] @ way)
+    A minimum is found to the root of rounding; Newton's method on its derivative does the rest.
+    """
 
-    found = minimize_scalar(behind, bounds=(low, high), method="bounded", options={"xatol": 1e-12})
-    return float(found.x)
+    def behind(s: Array) -> Array:
+        return -((curve.feet(s) + radius(s)[:, None] * curve.directions(s)) @ way)
+
+    found = minimize_scalar(
+        lambda s: float(behind(np.array([s]))[0]),
+        bounds=(low, high),
+        method="bounded",
+        options={"xatol": 1e-12},
+    )
+    at, h = float(found.x), STEP * (high - low)
+    for _ in range(2):
+        before, here, after = behind(np.array([at - h, at, at + h]))
+        bend = before - 2 * here + after
+        if bend > 0:
+            at -= float(h * (after - before) / (2 * bend))
+    return min(max(at, low), high)
 
 
 def _trim_piece(
