@@ -22,17 +22,15 @@ from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, tetrahedralized
 from decomp.tetra.classify import classified
-from decomp.tetra.faces import faces_of
+from decomp.tetra.conforming import conformed
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
-from decomp.tetra.project import Projector
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.splitting import freed
-from decomp.tetra.strayed import strayed
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
@@ -110,17 +108,16 @@ def mesh(
     part = classified(geometry, known, raw.points, raw.tets, epsilon)
     points, tets = _used(raw.points, raw.tets[part >= 0])
     points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
-    tagged = Tagger(geometry, made, known, plan, epsilon).tagged(points, part, faces_of(tets))
     tell("projecting", 0.85)
     elements = Elements(plan.complex)
+    tagger = Tagger(geometry, made, known, plan, epsilon)
     finder = Finder(geometry, made, known, plan, elements, epsilon)
-    corners = plan.complex.points
-    moved = Projector(points, tets, finder.targets(points, tagged), elements, corners).projected()
-    points, triangles = moved.points, tagged.triangles
-    left = np.union1d(moved.left, strayed(points, tagged, plan, elements, geometry.diagonal))
+    fit = conformed(points, tets, part, tagger, finder, plan, elements, geometry.diagonal)
+    points, tets, part, tagged, left = fit.points, fit.tets, fit.part, fit.tagged, fit.left
+    triangles = tagged.triangles
     if order == 2:
         tell("curving", 0.95)
-        curved = quadratic(points, tets, tagged, finder, elements, corners)
+        curved = quadratic(points, tets, tagged, finder, elements, plan.complex.points)
         points, tets, triangles = curved.points, curved.tets, curved.triangles
         left = np.concatenate([left, curved.left])
     groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)

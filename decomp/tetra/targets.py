@@ -71,10 +71,19 @@ class Finder:
         self._group: dict[int, tuple[int, ...]] = {
             patch: own for own in plan.between.values() for patch in own
         }
-        self._lines: dict[tuple[int, ...], list[int]] = {}
+        self._lines: dict[frozenset[int], list[int]] = {}
         for number, around in enumerate(plan.around_line):
-            if len(around) > 1:
-                self._lines.setdefault(around, []).append(number)
+            kinds = self._kinds(around)
+            if len(kinds) > 1:
+                self._lines.setdefault(kinds, []).append(number)
+
+    def _kinds(self, patches: Sequence[int]) -> frozenset[int]:
+        """Patches, with one of them for all sheets that part the same two cells.
+
+        Such sheets go on into one another, and near their common ends tags mistake one for the
+        next.
+        """
+        return frozenset(self._group.get(patch, (patch,))[0] for patch in patches)
 
     def targets(self, points: Array, tagged: Tagged) -> Targets:
         """The targets of all nodes of tagged triangles."""
@@ -97,27 +106,38 @@ class Finder:
         for own, listed in by_set.items():
             rows = np.array(listed, dtype=np.int64)
             found.surface[rows] = self._elements.of_patch[own[0]]
-            alike = self._group.get(own[0], ())
-            if len(alike) > 1 and set(own) <= set(alike):
-                ambiguous += listed
-            elif len(own) == 1:
-                found.element[rows] = self._elements.of_patch[own[0]]
-            else:
+            if len(self._kinds(own)) > 1:
                 self._meet(points[nodes[rows]], own, rows, found)
+            elif len(self._group.get(own[0], ())) > 1:
+                ambiguous += listed
+            else:
+                found.element[rows] = self._elements.of_patch[own[0]]
         self._on_one_sheet(points, tagged, np.array(sorted(ambiguous), dtype=np.int64), found)
         return found
 
+    def kinds(self, tagged: Tagged) -> dict[int, frozenset[int]]:
+        """The kinds of patches that meet at each node of tagged triangles."""
+        found: dict[int, set[int]] = {}
+        for node, patch in zip(
+            tagged.triangles.reshape(-1).tolist(),
+            np.repeat(tagged.patches, 3).tolist(),
+            strict=True,
+        ):
+            found.setdefault(node, set()).add(patch)
+        return {node: self._kinds(tuple(own)) for node, own in found.items()}
+
     def _meet(self, places: Array, own: tuple[int, ...], rows: Ints, found: Targets) -> None:
         """Nodes at which several patches meet: on a line or at a corner."""
-        lines = self._lines.get(own, [])
+        kinds = self._kinds(own)
+        lines = self._lines.get(kinds, [])
         if not lines:
-            near = self._near_corner(places, own)
+            near = self._near_corner(places, kinds)
             found.dimension[rows[near >= 0]] = CORNER
             found.element[rows[near >= 0]] = self._plan.corners[near[near >= 0]]
             rows, places = rows[near < 0], places[near < 0]
             if not len(rows):
                 return
-            lines = self._lines_like(own)
+            lines = self._lines_like(kinds)
         if lines:
             found.dimension[rows] = LINE
             found.element[rows] = self._elements.of_line[self._nearest_line(places, lines)]
@@ -125,14 +145,13 @@ class Finder:
             found.element[rows] = found.surface[rows]
             found.complete[rows] = False
 
-    def _near_corner(self, places: Array, own: tuple[int, ...]) -> Ints:
+    def _near_corner(self, places: Array, kinds: frozenset[int]) -> Ints:
         """The corner (k,) at each place where most of some patches meet, -1 for none."""
-        wanted = set(own)
         rows = np.array(
             [
                 k
                 for k, around in enumerate(self._plan.around_corner)
-                if len(wanted & set(around)) >= min(3, len(wanted))
+                if len(kinds & self._kinds(around)) >= min(3, len(kinds))
             ],
             dtype=np.int64,
         )
@@ -143,14 +162,13 @@ class Finder:
         near = gap < NEAR_CORNER * self._epsilon
         return np.asarray(np.where(near, rows[which], -1), dtype=np.int64)
 
-    def _lines_like(self, own: tuple[int, ...]) -> list[int]:
+    def _lines_like(self, kinds: frozenset[int]) -> list[int]:
         """Lines along which some of the patches meet, else lines where more than they do."""
-        wanted = set(own)
-        within = [k for around, ks in self._lines.items() if set(around) <= wanted for k in ks]
+        within = [around for around in self._lines if around <= kinds]
         if within:
-            most = max(len(self._plan.around_line[k]) for k in within)
-            return [k for k in within if len(self._plan.around_line[k]) == most]
-        return [k for around, ks in self._lines.items() if wanted <= set(around) for k in ks]
+            most = max(len(around) for around in within)
+            return [k for around in within if len(around) == most for k in self._lines[around]]
+        return [k for around, ks in self._lines.items() if kinds <= around for k in ks]
 
     def _nearest_line(self, places: Array, lines: Sequence[int]) -> Ints:
         if len(lines) == 1:

@@ -1,0 +1,78 @@
+"""Tetrahedra that follow the complex within epsilon are made to follow the exact one.
+
+Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
+node has no room there it is merged with a neighbour, and all is done again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.complex.refine_elements import Elements
+from decomp.tetra.collapsing import collapsed
+from decomp.tetra.faces import faces_of
+from decomp.tetra.layout import Layout
+from decomp.tetra.project import Projector
+from decomp.tetra.strayed import strayed
+from decomp.tetra.tagging import Tagged, Tagger
+from decomp.tetra.targets import Finder
+from decomp.vectors import Array, Ints
+
+ROUNDS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Conformed:
+    """A mesh whose nodes are where they belong.
+
+    Args:
+        points: (n, 3), all used.
+        tets: (m, 4).
+        part: (m,) of each.
+        tagged: its triangles on patches.
+        left: nodes that are not on all that they belong to; ascending.
+    """
+
+    points: Array
+    tets: Ints
+    part: Ints
+    tagged: Tagged
+    left: Ints
+
+
+def conformed(
+    points: Array,
+    tets: Ints,
+    part: Ints,
+    tagger: Tagger,
+    finder: Finder,
+    plan: Layout,
+    elements: Elements,
+    diagonal: float,
+) -> Conformed:
+    """Tag and move.
+
+    Args:
+        points: (n, 3), all used.
+        tets: (m, 4), positively oriented, of the cells only.
+        part: (m,) the part of a cell that each is in.
+        tagger, finder: of patches and of places.
+        plan: the complex.
+        elements: of it.
+        diagonal: of the model.
+    """
+    for last in range(ROUNDS - 1, -1, -1):
+        tagged = tagger.tagged(points, part, faces_of(tets))
+        targets = finder.targets(points, tagged)
+        moved = Projector(points, tets, targets, elements, plan.complex.points).projected()
+        points = moved.points
+        if not len(moved.left) or not last:
+            break
+        merged = collapsed(points, tets, part, moved.left, finder.kinds(tagged))
+        if merged is None:
+            break
+        points, tets, part = merged
+    off = strayed(points, tagged, plan, elements, diagonal)
+    return Conformed(points, tets, part, tagged, np.union1d(moved.left, off))
