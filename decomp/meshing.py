@@ -144,7 +144,7 @@ def _surface(
     epsilon = usual_epsilon(geometry, length)
     made = maker.made(CHORD * epsilon, by_face)
     fitting = fitting_epsilon(geometry, made, epsilon)
-    if fitting < 0.99 * epsilon:
+    if made.tolerance > COARSEST * fitting:
         made = maker.made(CHORD * fitting, by_face)
     return made, fitting
 

@@ -17,7 +17,7 @@ FaceLookup = Callable[[int, int, Array], Ints]
 """(region, carrier, points on it) -> the faces of the region that hold the points."""
 
 UNKNOWN, SEVERAL = -2, -1
-NEIGHBOURS = 12
+NEIGHBOURS = (12, 96)
 
 
 class FaceFinder:
@@ -50,9 +50,7 @@ class FaceFinder:
         faces[left] = self.by_edges(carriers[left], feet[left])
         return faces
 
-    def by_edges(
-        self, carriers: Ints, feet: Array, neighbours: Sequence[int] = (NEIGHBOURS,)
-    ) -> Ints:
+    def by_edges(self, carriers: Ints, feet: Array, neighbours: Sequence[int] = NEIGHBOURS) -> Ints:
         """Faces (n,) that hold feet (n, 3) on carriers (n,), by the nearest edges.
 
         Args:

@@ -66,13 +66,14 @@ def conformed(
     for last in range(ROUNDS - 1, -1, -1):
         tagged = tagger.tagged(points, part, faces_of(tets))
         targets = finder.targets(points, tagged)
-        moved = Projector(points, tets, targets, elements, plan.complex.points).projected()
-        points = moved.points
-        if not len(moved.left) or not last:
-            break
-        merged = collapsed(points, tets, part, moved.left, finder.kinds(tagged))
+        projector = Projector(points, tets, targets, elements, plan.complex.points)
+        left = projector.settle()
+        merged = None
+        if len(left) and last:
+            merged = collapsed(projector.points, tets, part, left, finder.kinds(tagged))
         if merged is None:
             break
         points, tets, part = merged
-    off = strayed(points, tagged, plan, elements, diagonal)
-    return Conformed(points, tets, part, tagged, np.union1d(moved.left, off))
+    projector.smooth()
+    off = strayed(projector.points, tagged, plan, elements, diagonal)
+    return Conformed(projector.points, tets, part, tagged, np.union1d(left, off))

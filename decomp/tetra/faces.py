@@ -12,6 +12,7 @@ OPPOSITE = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 """The face opposite to each vertex of a positive tetrahedron, seen from outside it."""
 EDGES = np.array([[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]])
 """The edges of a tetrahedron in Gmsh's order."""
+PAIRS = np.array([[i, j] for i in range(4) for j in range(i)])
 NONE = -1
 
 
@@ -61,17 +62,15 @@ def least_dihedral(points: Array, tets: Ints) -> Array:
     The angle between two faces is measured with a sign of the tetrahedron's volume.
     """
     corners = points[tets]
-    normals = [
-        cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a])
-        for a, b, c in OPPOSITE.tolist()
-    ]
-    units = [n / np.maximum(norm(n), 1e-300)[:, None] for n in normals]
-    least = np.full(len(tets), 180.0)
-    for i in range(4):
-        for j in range(i):
-            cosine = np.clip(-dot(units[i], units[j]), -1, 1)
-            least = np.minimum(least, np.degrees(np.arccos(cosine)))
-    return np.where(volumes(points, tets) > 0, least, -least)
+    start = corners[:, OPPOSITE[:, 0]]
+    first, second = corners[:, OPPOSITE[:, 1]] - start, corners[:, OPPOSITE[:, 2]] - start
+    normal = cross(first, second)
+    normal /= np.maximum(norm(normal), 1e-300)[..., None]
+    cosine = -dot(normal[:, PAIRS[:, 0]], normal[:, PAIRS[:, 1]]).min(axis=1)
+    least = np.degrees(np.arccos(np.clip(cosine, -1, 1)))
+    # the fourth normal points out of the vertices 0, 1, 2, away from vertex 3 if it is positive
+    positive = dot(normal[:, 3], corners[:, 3] - corners[:, 0]) < 0
+    return np.asarray(np.where(positive, least, -least))
 
 
 def edges_of(cells: Ints, pairs: Ints) -> tuple[Ints, Ints]:

@@ -9,8 +9,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from decomp.complex.refine_elements import Elements
@@ -33,19 +31,6 @@ WORST = 15.0
 """Nodes of tetrahedra below this angle are moved to better places."""
 STEPS = (0.25, 0.1, 0.04)
 """How far they are moved, in parts of the shortest edge at them."""
-
-
-@dataclass(frozen=True, eq=False)
-class Projected:
-    """What has come of it.
-
-    Args:
-        points: (n, 3).
-        left: nodes that are not on all that they belong to; ascending.
-    """
-
-    points: Array
-    left: Ints
 
 
 class Projector:
@@ -84,8 +69,13 @@ class Projector:
         self._element = np.array(targets.element)
         self._done = np.zeros(len(targets.nodes), dtype=np.bool_)
 
-    def projected(self) -> Projected:
-        """Move all nodes."""
+    @property
+    def points(self) -> Array:
+        """The nodes (n, 3) as they are."""
+        return self._points
+
+    def settle(self) -> Ints:
+        """Move all nodes; those that are not on all that they belong to, ascending."""
         complete = np.array(self._targets.complete)
         self._move_together(np.arange(len(self._targets.nodes)))
         for factor in FLOORS:
@@ -98,15 +88,14 @@ class Projector:
         self._dimension[failed] = SURFACE
         self._element[failed] = self._targets.surface[failed]
         self._move_one_by_one(failed, FLOORS[-1])
+        return np.sort(self._targets.nodes[~complete])
+
+    def smooth(self) -> None:
+        """Better angles, at the worst and all over; nodes on lines and corners stay."""
         for _ in range(ROUNDS):
             bad = np.flatnonzero(self._quality < WORST)
             if not len(bad) or not self._better(np.unique(self._tets[bad])):
                 break
-        self._smooth()
-        return Projected(self._points, np.sort(self._targets.nodes[~complete]))
-
-    def _smooth(self) -> None:
-        """Better angles all over; nodes on lines and corners stay."""
         free = np.bincount(self._tets.reshape(-1), minlength=len(self._points)) > 0
         free[self._targets.nodes] = False
         held = np.zeros(len(free), dtype=np.bool_)

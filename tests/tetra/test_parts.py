@@ -13,6 +13,7 @@ from decomp.complex.elements import CarrierSurface
 from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.complex.refine_elements import Elements
 from decomp.medial.region_curves import region_curves
+from decomp.tetra.collapsing import collapsed
 from decomp.tetra.content import contents
 from decomp.tetra.faces import faces_of, least_dihedral, volumes
 from decomp.tetra.field import kuhn
@@ -91,8 +92,9 @@ def test_nodes_are_moved_together() -> None:
     points, tets = grid(4)
     top = np.flatnonzero(points[:, 2] == 1)
     points[top, 2] += 0.02 * np.random.default_rng(0).normal(size=len(top))
-    moved = Projector(points, tets, targets_of(top), on_plane(1.0), np.empty((0, 3))).projected()
-    assert len(moved.left) == 0
+    moved = Projector(points, tets, targets_of(top), on_plane(1.0), np.empty((0, 3)))
+    assert len(moved.settle()) == 0
+    moved.smooth()
     assert (moved.points[top, 2] == 1).all()
     assert (volumes(moved.points, tets) > 0).all()
 
@@ -101,10 +103,36 @@ def test_a_node_that_would_invert_stays_and_is_counted() -> None:
     points, tets = grid(3)
     lone = np.flatnonzero((points == np.array([0, 0, 1])).all(axis=1))
     plane = on_plane(-0.5)
-    moved = Projector(points, tets, targets_of(lone), plane, np.empty((0, 3))).projected()
-    assert moved.left.tolist() == lone.tolist()
+    moved = Projector(points, tets, targets_of(lone), plane, np.empty((0, 3)))
+    assert moved.settle().tolist() == lone.tolist()
+    moved.smooth()
     assert (volumes(moved.points, tets) > 0).all()
     assert (moved.points[lone] == points[lone]).all()
+
+
+def test_a_node_without_room_is_merged_with_one_that_belongs_there_too() -> None:
+    points, tets = grid(4)
+    part = np.arange(len(tets))
+    edge = np.flatnonzero((points[:, 1:] == 0).all(axis=1))
+    near = int(np.flatnonzero((points == np.array([0.5, 0, 0.25])).all(axis=1))[0])
+    points[near, 2] = 0.02
+    kinds = {int(node): frozenset({1, 2}) for node in edge}
+    merged = collapsed(points, tets, part, np.array([near]), kinds | {near: frozenset({1, 2})})
+    assert merged is not None
+    fewer, left, labels = merged
+    assert len(fewer) == len(points) - 1
+    assert not (fewer == points[near]).all(axis=1).any()
+    assert (volumes(fewer, left) > 0).all()
+    assert volumes(fewer, left).sum() == pytest.approx(1, rel=1e-12)
+    assert len(labels) == len(left) < len(tets)
+    faces_of(left)
+
+
+def test_a_node_is_not_merged_with_one_that_belongs_elsewhere() -> None:
+    points, tets = grid(4)
+    near = int(np.flatnonzero((points == np.array([0.5, 0, 0.25])).all(axis=1))[0])
+    kinds = {near: frozenset({1, 2})} | {k: frozenset({1}) for k in range(len(points)) if k != near}
+    assert collapsed(points, tets, np.arange(len(tets)), np.array([near]), kinds) is None
 
 
 def test_smoothing_makes_angles_better_and_keeps_what_is_held() -> None:
