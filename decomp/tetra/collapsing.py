@@ -17,7 +17,7 @@ from decomp.vectors import Array, Ints
 OUTER = -1
 """A vertex that stands for all that is outside, so that nodes on the hull have closed stars."""
 SOUND = 3.0
-"""Degrees. No tetrahedron may come out with a lesser dihedral angle, unless it had one before; nodes
+"""Degrees. No tetrahedron may come out with a lesser dihedral angle unless it had one before; nodes
 are smoothed afterwards."""
 
 
