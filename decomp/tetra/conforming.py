@@ -1,7 +1,8 @@
 """Tetrahedra that follow the complex within epsilon are made to follow the exact one.
 
 Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
-node has no room there it is merged with a neighbour, and all is done again.
+node has no room there it is merged with a neighbour, or the sheet is taken off the face that it is
+on, and all is done again.
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from decomp.tetra.collapsing import collapsed
 from decomp.tetra.faces import faces_of
 from decomp.tetra.layout import Layout
 from decomp.tetra.project import Projector
+from decomp.tetra.separating import separated
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
-ROUNDS = 4
+ROUNDS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,12 +70,16 @@ def conformed(
         targets = finder.targets(points, tagged)
         projector = Projector(points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
-        merged = None
+        mended = None
         if len(left) and last:
-            merged = collapsed(projector.points, tets, part, left, finder.kinds(tagged))
-        if merged is None:
+            at = projector.points
+            mended = collapsed(at, tets, part, left, finder.kinds(tagged))
+            if mended is None:
+                owner = tagger.owner(tagged, left)
+                mended = separated(at, tets, part, left, owner, tagger.parts_at)
+        if mended is None:
             break
-        points, tets, part = merged
+        points, tets, part = mended
     projector.smooth()
     off = strayed(projector.points, tagged, plan, elements, diagonal)
     return Conformed(projector.points, tets, part, tagged, np.union1d(left, off))

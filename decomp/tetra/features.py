@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.complex.model import LineKind
 from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
@@ -14,6 +15,8 @@ from decomp.vectors import Array, dot
 
 FACING = -0.5
 """Feet face each other where the cosine between their directions is below this."""
+ALONG = 9
+"""Angles are measured at so many points of an edge."""
 SAMPLED = 12.0
 """Features are looked for at points this part of a region's diagonal apart."""
 USUAL = 5e-3
@@ -25,6 +28,9 @@ OF_THICKNESS, OF_EDGE = 0.2, 0.12
 """Epsilon is at most these parts of the least thickness, and of the shortest edge."""
 OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""
+WIDE = 30.0
+"""Where a sheet ends in an edge at less than this angle (degrees) to the faces, epsilon is smaller:
+TetWild lets it end epsilon / sin(angle) before the edge."""
 LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
@@ -33,8 +39,26 @@ def usual_epsilon(geometry: Geometry, length: float) -> float:
     """Epsilon as far as it is known without the skeleton, for edges of a length."""
     smallest = min(region.diagonal for region in geometry.regions)
     epsilon = min(USUAL * smallest, OF_LENGTH * length)
+    sharpest = min(sharpest_angle(region) for region in geometry.regions) / 2
+    epsilon *= min(1.0, float(np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
     return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
+
+
+def sharpest_angle(boundary: RegionBoundary) -> float:
+    """The least interior angle (degrees) between two faces along a convex edge; 180 for none."""
+    least = 180.0
+    for edge in boundary.edges:
+        if edge.convexity is Convexity.CONVEX:
+            at = edge.curve.point(np.linspace(edge.start, edge.end, ALONG))
+            one, two = (
+                boundary.faces[face].outward
+                * boundary.carriers[boundary.faces[face].carrier].normal(at)
+                for face in edge.faces
+            )
+            angles = np.degrees(np.arccos(np.clip(-dot(one, two), -1, 1)))
+            least = min(least, float(angles.min()))
+    return least
 
 
 def fitting_epsilon(geometry: Geometry, surface: MeshSurface, epsilon: float) -> float:

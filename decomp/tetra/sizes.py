@@ -30,7 +30,7 @@ SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
-CANCELLED = 0.3
+CANCELLED = 0.36
 """Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.geometry import Geometry
+from decomp.sites.site import SiteKind
 from decomp.tetra.cells import OUTSIDE, CellMap, locate
 from decomp.tetra.faces import NONE, Faces
 from decomp.tetra.layout import Layout, samples
@@ -58,6 +59,11 @@ class Tagger:
     ) -> None:
         self._geometry, self._surface, self._cells = geometry, surface, cells
         self._plan, self._epsilon = plan, epsilon
+        self._part_of_face = {
+            (site.region, site.index): int(cells.part[number])
+            for number, site in enumerate(surface.sites)
+            if site.kind is SiteKind.FACE and site.region >= 0
+        }
 
     def tagged(self, points: Array, part: Ints, faces: Faces) -> Tagged:
         """The triangles between tetrahedra of different cells, and those on sheets inside cells.
@@ -85,6 +91,20 @@ class Tagger:
         patches[inner] = self._inside(points, triangles[inner], parts[inner])
         kept = patches >= 0
         return Tagged(triangles[kept], sides[kept], patches[kept])
+
+    def parts_at(self, points: Array) -> Ints:
+        """The parts (k,) of cells that hold points (k, 3)."""
+        return locate(self._geometry, self._cells, points).part
+
+    def owner(self, tagged: Tagged, nodes: Ints) -> Ints:
+        """The part (k,) that the one face around each node belongs to; OUTSIDE for none or more."""
+        found = np.full(len(nodes), OUTSIDE, dtype=np.int64)
+        for row, node in enumerate(nodes.tolist()):
+            at = np.unique(tagged.patches[(tagged.triangles == node).any(axis=1)])
+            sides = [self._plan.sides[patch] for patch in at.tolist() if self._plan.sides[patch]]
+            if len(sides) == 1 and len(sides[0]) == 1:
+                found[row] = self._part_of_face[sides[0][0]]
+        return found
 
     def _inside(self, points: Array, triangles: Ints, parts: Ints) -> Ints:
         """The sheets inside cells that triangles lie on, -1 for those on none.

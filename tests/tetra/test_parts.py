@@ -19,6 +19,7 @@ from decomp.tetra.faces import faces_of, least_dihedral, volumes
 from decomp.tetra.field import kuhn
 from decomp.tetra.lifting import lifted
 from decomp.tetra.project import Projector
+from decomp.tetra.separating import separated
 from decomp.tetra.smoothing import smoothed
 from decomp.tetra.splitting import freed, held
 from decomp.tetra.surface import SurfaceMaker
@@ -133,6 +134,27 @@ def test_a_node_is_not_merged_with_one_that_belongs_elsewhere() -> None:
     near = int(np.flatnonzero((points == np.array([0.5, 0, 0.25])).all(axis=1))[0])
     kinds = {near: frozenset({1, 2})} | {k: frozenset({1}) for k in range(len(points)) if k != near}
     assert collapsed(points, tets, np.arange(len(tets)), np.array([near]), kinds) is None
+
+
+def test_a_sheet_is_lifted_off_a_face() -> None:
+    points, tets = grid(4)
+    part = np.ones(len(tets), dtype=np.int64)
+    node = np.flatnonzero((points == np.array([0.5, 0.5, 0])).all(axis=1))
+
+    def parts_at(places: Array) -> Ints:
+        return np.where(places[:, 2] > 0.1, 1, 0)
+
+    owner = np.zeros(1, dtype=np.int64)
+    found = separated(points, tets, part, node, owner, parts_at)
+    assert found is not None
+    more, cut, labels = found
+    assert volumes(more, cut).sum() == pytest.approx(1, rel=1e-12)
+    assert (volumes(more, cut) > 0).all()
+    faces_of(cut)
+    at = (cut == node[0]).any(axis=1)
+    assert (labels[at] == 0).all() and (labels[~at] == 1).all()
+    assert more[np.unique(cut[at])].max(axis=0)[2] == pytest.approx(0.25 * 0.40625)
+    assert separated(more, cut, labels, node, owner, parts_at) is None
 
 
 def test_smoothing_makes_angles_better_and_keeps_what_is_held() -> None:
