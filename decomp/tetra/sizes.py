@@ -23,14 +23,14 @@ from decomp.vectors import Array, cross, norm
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
-VOLUME, ASKED = 3e-3, 1.9e-3
+VOLUME, ASKED = 3e-3, 1.6e-3
 """Where edges of the wanted length would change a region's volume by more than the first part of
 it, they are made so short that it is the second: TetWild leaves edges up to 4/3 as long."""
 SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
-CANCELLED = 0.36
+CANCELLED = 0.3
 """Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
