@@ -8,6 +8,7 @@ are handed down from a cell to its children.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, sqrt
 from typing import NamedTuple
 
@@ -20,6 +21,7 @@ from decomp.sites.occupancy import OccupancyTree
 from decomp.sites.occupancy_cells import circumradius
 from decomp.sites.octree import DEPTH, Links, Octree, root_centres
 from decomp.sites.programs import NOTHING
+from decomp.sites.records import Record
 from decomp.sites.site_bounds import at_least, possible
 from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Bools, Ints
@@ -30,7 +32,8 @@ DEPTH_LIMIT = 9
 CELL_LIMIT = 400_000
 
 
-class CandidateTree(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class CandidateTree(Record):
     """The octree, and the candidates of leaf k: items[first[k]] to items[first[k + 1]]."""
 
     tree: Octree

@@ -7,13 +7,14 @@ of a `CarrierTable`; points and vectors are three floats.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import hypot, inf, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
 from decomp.carriers import Carrier
 from decomp.sites.compiled import inlined, scalar
+from decomp.sites.records import Record
 from decomp.vectors import Array, Ints
 
 Triple = tuple[float, float, float]
@@ -24,7 +25,8 @@ ON_AXIS = 1e-30
 """Square of the angle at the reference point below which a point counts as on the axis."""
 
 
-class CarrierTable(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class CarrierTable(Record):
     """Carriers as arrays: `codes` (n,) and `packed` (n, 8), see `Carrier.packed`."""
 
     codes: Ints

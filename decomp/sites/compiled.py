@@ -37,11 +37,17 @@ def inlined(function: F) -> F:
 
 
 def _compiled(function: F, **options: bool) -> F:
-    common: dict[str, Any] = {"nogil": True, "error_model": "numpy", **options}
+    common: dict[str, Any] = {
+        "nogil": True,
+        "error_model": "numpy",
+        "no_cfunc_wrapper": True,
+        **options,
+    }
     try:
         compiled: Any = njit(cache=True, **common)(function)
     except RuntimeError:  # numba found no directory to write to
         return cast(F, njit(**common)(function))
+    _plain(compiled)
     restamp(compiled, Path(__file__).parent)
     return cast(F, compiled)
 
@@ -66,3 +72,18 @@ def _stamp(folder: Path) -> tuple[float, int]:
     """Latest change and total size of the files of a folder."""
     stats = [file.stat() for file in folder.glob("*.py")]
     return max((s.st_mtime for s in stats), default=0.0), sum(s.st_size for s in stats)
+
+
+def _plain(compiled):
+    from numba import types
+
+    original = compiled.get_call_template
+
+    def plain(t):
+        t = types.unliteral(t)
+        return types.int64 if t == types.int32 else t
+
+    def get(args, kws):
+        return original(tuple(plain(a) for a in args), {k: plain(v) for k, v in kws.items()})
+
+    compiled.get_call_template = get

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,7 @@ from decomp.sites.programs import (
     flips,
     programs_of,
 )
+from decomp.sites.records import Record
 from decomp.vectors import Array, Ints
 
 Labels = NDArray[np.int32]
@@ -45,7 +46,8 @@ ROUNDING = 1e-12
 """Signed distances below this, relative to the coordinates' size, may have either sign."""
 
 
-class OccupancyTree(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class OccupancyTree(Record):
     """The octree with its leaves.
 
     Args:

@@ -7,11 +7,12 @@ every foot still on the boundary? A change between two points is narrowed down b
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
+from decomp.sites.records import Record
 from decomp.tracing.balance import balance
 from decomp.tracing.compiled import scalar
 from decomp.tracing.probing import (
@@ -44,7 +45,8 @@ BETWEEN = 8
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
 
 
-class Track(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Track(Record):
     """Room for the points of a seam with m contacts.
 
     Args:

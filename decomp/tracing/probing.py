@@ -6,7 +6,7 @@ names sites.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
@@ -14,6 +14,7 @@ from decomp.sites.carrier_kernels import Triple, foot
 from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
 from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
+from decomp.sites.records import Record
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
 from decomp.tracing.compiled import inlined, scalar
@@ -28,7 +29,8 @@ APART = 1e-3
 """Feet farther apart than this part of the radius are different contacts."""
 
 
-class Probe(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Probe(Record):
     """All that queries in one region need.
 
     Args:

@@ -8,8 +8,8 @@ and all vertices have supports, whether they are sites or not.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import sqrt
-from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -30,6 +30,7 @@ from decomp.sites.carrier_kernels import (
     radial,
     signed_distance,
 )
+from decomp.sites.records import Record
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import scalar
 from decomp.vectors import Array, Ints
@@ -43,7 +44,8 @@ FOOT_STEPS = 60
 Field = tuple[float, float, float, float, float, float, float]
 
 
-class SupportTable(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class SupportTable(Record):
     """Supports of all sites, in their order, then of the region's edges, then of its vertices.
 
     Args:
