@@ -7,7 +7,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from decomp.sites.compiled import scalar
+from decomp.sites.compiled import inner
 from decomp.sites.measure import NONE, Hit, better, no_hit
 from decomp.sites.occupancy import OccupancyTree
 from decomp.sites.records import Record
@@ -58,7 +58,7 @@ def box_tree(sites: SiteTable) -> BoxTree:
     )
 
 
-@scalar
+@inner
 def farthest(boxes: Array, k: int, x: float, y: float, z: float) -> float:
     """Distance to the farthest corner of a box."""
     dx = max(x - boxes[k, 0], boxes[k, 3] - x)
@@ -67,7 +67,7 @@ def farthest(boxes: Array, k: int, x: float, y: float, z: float) -> float:
     return sqrt(dx * dx + dy * dy + dz * dz)
 
 
-@scalar
+@inner
 def nearest_in_boxes(
     occupancy: OccupancyTree,
     sites: SiteTable,

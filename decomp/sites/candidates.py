@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import kernel, scalar
+from decomp.sites.compiled import inner, kernel
 from decomp.sites.growing import counted, grown
 from decomp.sites.measure import better, count_of, no_hit
 from decomp.sites.occupancy import OccupancyTree
@@ -105,7 +105,7 @@ def candidate_tree(occupancy: OccupancyTree, sites: SiteTable, label: int) -> Ca
     return CandidateTree(tree, np.concatenate(firsts), np.concatenate(items))
 
 
-@scalar
+@inner
 def holds_label(occupancy: OccupancyTree, label: int, depth: int, centre: Array) -> bool:
     """Whether a region may occur in a cell `depth` levels below the grid."""
     tree, leaves = occupancy.tree, occupancy.leaves

@@ -6,7 +6,7 @@ from math import inf, sqrt
 from typing import NamedTuple
 
 from decomp.sites.carrier_kernels import foot, signed_distance
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner
 from decomp.sites.edge_feet import ARC, circle_distance
 from decomp.sites.occupancy import NOWHERE, OccupancyTree, on_boundary
 from decomp.sites.site_bounds import edge_foot
@@ -42,8 +42,8 @@ def no_hit() -> Hit:
     return Hit(NONE, inf, inf, 0.0, 0.0, 0.0, NOWHERE)
 
 
-@inlined
-def better_inlined(
+@inner
+def better(
     occupancy: OccupancyTree,
     sites: SiteTable,
     label: int,
@@ -83,21 +83,6 @@ def better_inlined(
     if away > limit or (away >= hit.least - occupancy.rounding and k > hit.candidate >= 0):
         return hit
     return Hit(k, away, min(away, hit.least), qx, qy, qz, NOWHERE)
-
-
-@scalar
-def better(
-    occupancy: OccupancyTree,
-    sites: SiteTable,
-    label: int,
-    k: int,
-    x: float,
-    y: float,
-    z: float,
-    hit: Hit,
-) -> Hit:
-    """The same, compiled only once."""
-    return better_inlined(occupancy, sites, label, k, x, y, z, hit)
 
 
 def count_of(sites: SiteTable) -> int:

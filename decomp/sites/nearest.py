@@ -5,7 +5,7 @@ from __future__ import annotations
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
 from decomp.sites.compiled import scalar
-from decomp.sites.measure import NONE, better_inlined, no_hit
+from decomp.sites.measure import NONE, better, no_hit
 from decomp.sites.occupancy import Labels, OccupancyTree
 from decomp.sites.octree import locate
 from decomp.sites.site_table import SiteTable
@@ -36,7 +36,7 @@ def nearest_in_region(
         if leaf >= 0:
             for m in range(candidates.first[leaf], candidates.first[leaf + 1]):
                 k = candidates.items[m]
-                hit = better_inlined(occupancy, sites, label, k, x, y, z, hit)
+                hit = better(occupancy, sites, label, k, x, y, z, hit)
         if hit.candidate == NONE:
             hit = nearest_in_boxes(occupancy, sites, boxes, label, x, y, z)
         found[i], distances[i], slots[i] = hit.candidate, hit.distance, hit.slot

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.sites.carrier_kernels import CarrierTable, carrier_table, signed_distance
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner, scalar
 from decomp.sites.occupancy_cells import circumradius, root_cells, split
 from decomp.sites.occupancy_leaves import (
     OUTSIDE,
@@ -139,7 +139,7 @@ def label_at(occupancy: OccupancyTree, x: float, y: float, z: float) -> int:
     return int(leaves.labels[word])
 
 
-@scalar
+@inner
 def label_by_program(occupancy: OccupancyTree, k: int, x: float, y: float, z: float) -> int:
     """The same where too many carriers meet."""
     programs = occupancy.leaves.programs
@@ -198,7 +198,7 @@ def on_boundary(
     return int(slot) if patterns != NOTHING else NOWHERE
 
 
-@scalar
+@inner
 def on_boundary_by_program(
     occupancy: OccupancyTree, k: int, label: int, carrier: int, x: float, y: float, z: float
 ) -> int:

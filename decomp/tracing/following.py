@@ -14,7 +14,7 @@ import numpy as np
 
 from decomp.sites.records import Record
 from decomp.tracing.balance import balance
-from decomp.tracing.compiled import scalar
+from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.probing import (
     HOLDS,
     INTRUDED,
@@ -129,7 +129,7 @@ def settle(
     return True
 
 
-@scalar
+@inner
 def advance(
     table: SupportTable,
     which: Ints,
@@ -177,7 +177,7 @@ def advance(
     return (bend >= TURN or not strict) and float(ahead) > 0.9 * length - rounding
 
 
-@scalar
+@inner
 def returns(track: Track, row: int, home: Array) -> bool:
     """Whether the step to a row passes `home`: a point and a tangent (6,)."""
     wx = track.points[row, 0] - track.points[row - 1, 0]

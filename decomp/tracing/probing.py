@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
 from decomp.sites.carrier_kernels import Triple, foot
-from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
+from decomp.sites.measure import NONE, Hit, better, no_hit
 from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
 from decomp.sites.records import Record
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
-from decomp.tracing.compiled import inlined, scalar
+from decomp.tracing.compiled import inner
 from decomp.vectors import Array
 
 TOUCH = 1e-11
@@ -60,13 +60,13 @@ def probe_of(
     return Probe(occupancy, sites, candidates, boxes, label, TOUCH * size)
 
 
-@inlined
+@inner
 def inside(probe: Probe, x: float, y: float, z: float) -> bool:
     """Whether a point is in the region."""
     return label_at(probe.occupancy, x, y, z) == probe.label
 
 
-@inlined
+@inner
 def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
     """The nearest boundary point of the region, for points in it or close to it."""
     hit = no_hit()
@@ -74,13 +74,13 @@ def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
     if leaf >= 0:
         for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
             k = probe.candidates.items[m]
-            hit = better_inlined(probe.occupancy, probe.sites, probe.label, k, x, y, z, hit)
+            hit = better(probe.occupancy, probe.sites, probe.label, k, x, y, z, hit)
     if hit.candidate == NONE:
         hit = nearest_in_boxes(probe.occupancy, probe.sites, probe.boxes, probe.label, x, y, z)
     return hit
 
 
-@inlined
+@inner
 def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple:
     """The foot on a candidate's support, or on a part of an edge."""
     sites = probe.sites
@@ -94,7 +94,7 @@ def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple
     return sites.vertices[v, 0], sites.vertices[v, 1], sites.vertices[v, 2]
 
 
-@scalar
+@inner
 def another(
     probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
 ) -> bool:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import sqrt
 
 from decomp.sites.measure import NONE
-from decomp.tracing.compiled import inlined, scalar
+from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.probing import Probe, candidate_foot, inside, nearest_hit
 from decomp.vectors import Array, Ints
 
@@ -23,7 +23,7 @@ CREPT = 1e-5
 TOUCHES, OSCULATES, RESTLESS, SIZELESS = range(4)
 
 
-@inlined
+@inner
 def polish(
     probe: Probe,
     k: int,
