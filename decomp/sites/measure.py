@@ -42,8 +42,8 @@ def no_hit() -> Hit:
     return Hit(NONE, inf, inf, 0.0, 0.0, 0.0, NOWHERE)
 
 
-@inner
-def better(
+@inlined
+def better_inlined(
     occupancy: OccupancyTree,
     sites: SiteTable,
     label: int,
@@ -83,6 +83,21 @@ def better(
     if away > limit or (away >= hit.least - occupancy.rounding and k > hit.candidate >= 0):
         return hit
     return Hit(k, away, min(away, hit.least), qx, qy, qz, NOWHERE)
+
+
+@inner
+def better(
+    occupancy: OccupancyTree,
+    sites: SiteTable,
+    label: int,
+    k: int,
+    x: float,
+    y: float,
+    z: float,
+    hit: Hit,
+) -> Hit:
+    """The same, compiled only once."""
+    return better_inlined(occupancy, sites, label, k, x, y, z, hit)
 
 
 def count_of(sites: SiteTable) -> int:

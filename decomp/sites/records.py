@@ -1,9 +1,9 @@
 """Records: arrays and numbers that kernels get by their address.
 
-Numba passes the tuples that are made of arrays by value. A model's tables hold some fifty arrays, so
-that every call from kernel to kernel would pass hundreds of values, and most of the compiler's time
-would go into packing and unpacking them. A kernel gets a `Record` as one address of a row of words
-and reads from there what it names: `sites.kinds` is the same code as with a tuple.
+Numba passes tuples of arrays by value. A model's tables hold some fifty arrays, so that every call
+from kernel to kernel would pass hundreds of values, and most of the compiler's time would go into
+packing and unpacking them. A kernel gets a `Record` as one address of a row of words and reads from
+there what it names: `sites.kinds` is the same code as with a tuple.
 
 The row holds 8 bytes for an integer or a float, and for an array its address and its shape. Tuples
 with names and records inside a record are laid out in it in place, so they too are addresses.

@@ -24,7 +24,7 @@ from decomp.tracing.probing import (
     Probe,
     another,
     inside,
-    nearest_hit,
+    nearest,
 )
 from decomp.tracing.supports import SupportTable
 from decomp.vectors import Array, Ints
@@ -288,7 +288,7 @@ def follow(
             if q <= 0 and not inside(probe, px, py, pz):
                 away = -1.0
             else:
-                away = nearest_hit(probe, px, py, pz).distance
+                away = nearest(probe, px, py, pz).distance
             if q < 0:
                 if away < bound:
                     rough = True

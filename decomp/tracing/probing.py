@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from decomp.sites.box_tree import BoxTree, nearest_in_boxes
+from decomp.sites.box_tree import BoxTree
 from decomp.sites.candidates import CandidateTree
 from decomp.sites.carrier_kernels import Triple, foot
-from decomp.sites.measure import NONE, Hit, better, no_hit
+from decomp.sites.measure import Hit
+from decomp.sites.nearest import nearest_hit
 from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
 from decomp.sites.records import Record
@@ -67,17 +68,11 @@ def inside(probe: Probe, x: float, y: float, z: float) -> bool:
 
 
 @inner
-def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
+def nearest(probe: Probe, x: float, y: float, z: float) -> Hit:
     """The nearest boundary point of the region, for points in it or close to it."""
-    hit = no_hit()
-    leaf = locate(probe.candidates.tree, x, y, z)
-    if leaf >= 0:
-        for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
-            k = probe.candidates.items[m]
-            hit = better(probe.occupancy, probe.sites, probe.label, k, x, y, z, hit)
-    if hit.candidate == NONE:
-        hit = nearest_in_boxes(probe.occupancy, probe.sites, probe.boxes, probe.label, x, y, z)
-    return hit
+    return nearest_hit(
+        probe.occupancy, probe.sites, probe.candidates, probe.boxes, probe.label, x, y, z
+    )
 
 
 @inner
@@ -115,7 +110,7 @@ def another(
         if known:
             continue
         px, py, pz = x + TOWARDS * (qx - x), y + TOWARDS * (qy - y), z + TOWARDS * (qz - z)
-        away = nearest_hit(probe, px, py, pz).distance
+        away = nearest(probe, px, py, pz).distance
         if away <= (1.0 - TOWARDS) * radius + probe.slack:
             return True
     return False

@@ -11,7 +11,7 @@ from math import sqrt
 
 from decomp.sites.measure import NONE
 from decomp.tracing.compiled import inner, scalar
-from decomp.tracing.probing import Probe, candidate_foot, inside, nearest_hit
+from decomp.tracing.probing import Probe, candidate_foot, inside, nearest
 from decomp.vectors import Array, Ints
 
 ROUNDS = 1000
@@ -97,7 +97,7 @@ def shrink(
             x, y, z = qx + r * nx, qy + r * ny, qz + r * nz
             hx, hy, hz, reach, met, k = x, y, z, 0.0, False, -1
             if inside(probe, x, y, z):
-                hit = nearest_hit(probe, x, y, z)
+                hit = nearest(probe, x, y, z)
                 if hit.candidate != NONE:
                     hx, hy, hz, reach, met = hit.x, hit.y, hit.z, hit.distance, True
                     k = hit.candidate
