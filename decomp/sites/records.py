@@ -42,7 +42,8 @@ class Record:
 
     @cached_property
     def _numba_type_(self) -> RecordType:
-        return _type_of(self)
+        kind: RecordType = _type_of(self)
+        return kind
 
     @cached_property
     def _words(self) -> Ints:
