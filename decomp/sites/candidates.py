@@ -216,7 +216,10 @@ def without_repeats(sites: SiteTable, level: Level, split: Bools) -> tuple[Ints,
     n, count = len(split), 0
     offsets = np.zeros(n + 1, dtype=np.int64)
     items = np.empty(level.first[n], dtype=np.int64)
-    place = np.zeros(sites.face_carriers.max() + 1 if faces else 1, dtype=np.int64)
+    most = 0
+    for k in range(faces):
+        most = max(most, sites.face_carriers[k])
+    place = np.zeros(most + 1, dtype=np.int64)
     leaf = 0
     for cell in range(n):
         if split[cell]:

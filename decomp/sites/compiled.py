@@ -7,6 +7,7 @@ that only kernels call get no such code, and each is compiled for one kind of ar
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -61,7 +62,24 @@ def _compiled(function: F, **options: bool) -> F:
         compiled = njit(**common)(function)
     else:
         restamp(compiled, Path(__file__).parent)
-    return cast(F, _for_plain_types(compiled))
+    return cast(F, _without_collecting(_for_plain_types(compiled)))
+
+
+def _without_collecting(compiled: Any) -> Any:
+    """Have it compiled with the garbage collector at rest, which finds next to nothing then."""
+    plain = compiled.compile
+
+    def at_rest(signature: Any) -> Any:
+        if not gc.isenabled():
+            return plain(signature)
+        gc.disable()
+        try:
+            return plain(signature)
+        finally:
+            gc.enable()
+
+    compiled.compile = at_rest
+    return compiled
 
 
 def _for_plain_types(compiled: Any) -> Any:
