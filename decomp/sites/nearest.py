@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
-from decomp.sites.compiled import inner, scalar
+from decomp.sites.compiled import inlined, scalar
 from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
 from decomp.sites.occupancy import Labels, OccupancyTree
 from decomp.sites.octree import locate
@@ -12,7 +12,7 @@ from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Ints
 
 
-@inner
+@inlined
 def nearest_hit(
     occupancy: OccupancyTree,
     sites: SiteTable,
