@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from decomp.sites.compiled import kernel
+from decomp.sites.compiled import inner_kernel, kernel
 from decomp.vectors import Array, Bools, Ints
 
 Period = tuple[float | None, float | None]
@@ -83,7 +83,7 @@ def _sweep(ends: Array, vertex: Ints, owner: Ints, middle: Bools, found: Ints) -
     return count
 
 
-@kernel
+@inner_kernel
 def _side(ax: float, ay: float, bx: float, by: float, px: float, py: float) -> int:
     """+1, 0 or -1: p lies left of the way from a to b, on it to rounding, or right of it."""
     left, right = (bx - ax) * (py - ay), (by - ay) * (px - ax)
@@ -95,13 +95,13 @@ def _side(ax: float, ay: float, bx: float, by: float, px: float, py: float) -> i
     return 1 if left > right else -1
 
 
-@kernel
+@inner_kernel
 def _within(ax: float, ay: float, bx: float, by: float, px: float, py: float) -> bool:
     """Whether p, on the line through a and b, lies between them."""
     return (px - ax) * (px - bx) + (py - ay) * (py - by) < 0
 
 
-@kernel
+@inner_kernel
 def _meet(a: Array, b: Array, va: Ints, vb: Ints) -> bool:
     """Whether two segments have a point in common other than a common end."""
     common = 0

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import scalar
+from decomp.sites.compiled import inner
 from decomp.sites.measure import NONE, Hit, better, no_hit
 from decomp.sites.occupancy import OccupancyTree
+from decomp.sites.records import Record
 from decomp.sites.site_boxes import box_distance
 from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Ints
 
 
-class BoxTree(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class BoxTree(Record):
     """A binary tree in depth-first order.
 
     Args:
@@ -56,7 +58,7 @@ def box_tree(sites: SiteTable) -> BoxTree:
     )
 
 
-@scalar
+@inner
 def farthest(boxes: Array, k: int, x: float, y: float, z: float) -> float:
     """Distance to the farthest corner of a box."""
     dx = max(x - boxes[k, 0], boxes[k, 3] - x)
@@ -65,7 +67,7 @@ def farthest(boxes: Array, k: int, x: float, y: float, z: float) -> float:
     return sqrt(dx * dx + dy * dy + dz * dz)
 
 
-@scalar
+@inner
 def nearest_in_boxes(
     occupancy: OccupancyTree,
     sites: SiteTable,

@@ -8,18 +8,20 @@ are handed down from a cell to its children.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import kernel, scalar
+from decomp.sites.compiled import inner, kernel
 from decomp.sites.growing import counted, grown
 from decomp.sites.measure import better, count_of, no_hit
 from decomp.sites.occupancy import OccupancyTree
 from decomp.sites.occupancy_cells import circumradius
 from decomp.sites.octree import DEPTH, Links, Octree, root_centres
 from decomp.sites.programs import NOTHING
+from decomp.sites.records import Record
 from decomp.sites.site_bounds import at_least, possible
 from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Bools, Ints
@@ -30,7 +32,8 @@ DEPTH_LIMIT = 9
 CELL_LIMIT = 400_000
 
 
-class CandidateTree(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class CandidateTree(Record):
     """The octree, and the candidates of leaf k: items[first[k]] to items[first[k + 1]]."""
 
     tree: Octree
@@ -102,7 +105,7 @@ def candidate_tree(occupancy: OccupancyTree, sites: SiteTable, label: int) -> Ca
     return CandidateTree(tree, np.concatenate(firsts), np.concatenate(items))
 
 
-@scalar
+@inner
 def holds_label(occupancy: OccupancyTree, label: int, depth: int, centre: Array) -> bool:
     """Whether a region may occur in a cell `depth` levels below the grid."""
     tree, leaves = occupancy.tree, occupancy.leaves
@@ -213,7 +216,10 @@ def without_repeats(sites: SiteTable, level: Level, split: Bools) -> tuple[Ints,
     n, count = len(split), 0
     offsets = np.zeros(n + 1, dtype=np.int64)
     items = np.empty(level.first[n], dtype=np.int64)
-    place = np.zeros(sites.face_carriers.max() + 1 if faces else 1, dtype=np.int64)
+    most = 0
+    for k in range(faces):
+        most = max(most, sites.face_carriers[k])
+    place = np.zeros(most + 1, dtype=np.int64)
     leaf = 0
     for cell in range(n):
         if split[cell]:

@@ -7,13 +7,14 @@ of a `CarrierTable`; points and vectors are three floats.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import hypot, inf, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
 from decomp.carriers import Carrier
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner
+from decomp.sites.records import Record
 from decomp.vectors import Array, Ints
 
 Triple = tuple[float, float, float]
@@ -24,7 +25,8 @@ ON_AXIS = 1e-30
 """Square of the angle at the reference point below which a point counts as on the axis."""
 
 
-class CarrierTable(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class CarrierTable(Record):
     """Carriers as arrays: `codes` (n,) and `packed` (n, 8), see `Carrier.packed`."""
 
     codes: Ints
@@ -38,7 +40,7 @@ def carrier_table(carriers: Sequence[Carrier]) -> CarrierTable:
     return CarrierTable(codes, packed)
 
 
-@scalar
+@inner
 def perpendicular_to(ax: float, ay: float, az: float) -> Triple:
     """A unit vector at right angles to a unit vector: the one of `vectors.perpendicular`."""
     if abs(ax) <= abs(ay) and abs(ax) <= abs(az):
@@ -102,7 +104,7 @@ def signed_distance(table: CarrierTable, c: int, x: float, y: float, z: float) -
     return float(hypot(rho - packed[c, 6], height) - packed[c, 7])
 
 
-@scalar
+@inner
 def normal(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
     """Outward unit normal of carrier c at a point on or near it."""
     packed, code = table.packed, table.codes[c]
@@ -130,7 +132,7 @@ def normal(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
     return out * ux + height * ax, out * uy + height * ay, out * uz + height * az
 
 
-@scalar
+@inner
 def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
     """The nearest point of carrier c (any one of them on its reflexive locus)."""
     packed, code = table.packed, table.codes[c]
@@ -162,7 +164,7 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
     )
 
 
-@scalar
+@inner
 def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radius: float) -> float:
     """How far from the foot of a point the feet of points within `radius` of it can be.
 

@@ -1,14 +1,20 @@
-"""How numerical kernels are compiled."""
+"""How numerical kernels are compiled.
+
+Compiling takes long, most of it for what surrounds the arithmetic: code that takes arguments from
+Python, copies for arguments of another type, tuples of many arrays (see `records`). So functions
+that only kernels call get no such code, and each is compiled for one kind of arguments.
+"""
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any, NoReturn, TypeVar, cast
 
-from numba import njit
+from numba import njit, types
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -31,19 +37,82 @@ def scalar(function: F) -> F:
     return _compiled(function, _nrt=False)
 
 
+def inner_kernel(function: F) -> F:
+    """A kernel that only kernels can call."""
+    return _only_from_kernels(_compiled(function, no_cpython_wrapper=True))
+
+
+def inner(function: F) -> F:
+    """A scalar kernel that only kernels can call."""
+    return _only_from_kernels(_compiled(function, _nrt=False, no_cpython_wrapper=True))
+
+
 def inlined(function: F) -> F:
-    """A scalar kernel that is compiled into its callers."""
-    return _compiled(function, _nrt=False, forceinline=True)
+    """A scalar kernel that is compiled into the kernels that call it."""
+    options = {"_nrt": False, "no_cpython_wrapper": True, "forceinline": True}
+    return _only_from_kernels(_compiled(function, **options))
 
 
 def _compiled(function: F, **options: bool) -> F:
-    common: dict[str, Any] = {"nogil": True, "error_model": "numpy", **options}
+    common: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+    common.update(options)
     try:
         compiled: Any = njit(cache=True, **common)(function)
     except RuntimeError:  # numba found no directory to write to
-        return cast(F, njit(**common)(function))
-    restamp(compiled, Path(__file__).parent)
-    return cast(F, compiled)
+        compiled = njit(**common)(function)
+    else:
+        restamp(compiled, Path(__file__).parent)
+    return cast(F, _without_collecting(_for_plain_types(compiled)))
+
+
+def _without_collecting(compiled: Any) -> Any:
+    """Have it compiled with the garbage collector at rest, which finds next to nothing then."""
+    plain = compiled.compile
+
+    def at_rest(signature: Any) -> Any:
+        if not gc.isenabled():
+            return plain(signature)
+        gc.disable()
+        try:
+            return plain(signature)
+        finally:
+            gc.enable()
+
+    compiled.compile = at_rest
+    return compiled
+
+
+def _for_plain_types(compiled: Any) -> Any:
+    """Have kernels call it with 64-bit integers instead of constants and shorter integers.
+
+    Numba would compile it for each constant again.
+    """
+    template = compiled.get_call_template
+
+    def plain(kind: types.Type) -> types.Type:
+        kind = types.unliteral(kind)
+        return types.int64 if kind == types.int32 else kind
+
+    def for_plain(args: Any, keywords: dict[str, Any]) -> Any:
+        return template(tuple(map(plain, args)), {k: plain(v) for k, v in keywords.items()})
+
+    compiled.get_call_template = for_plain
+    return compiled
+
+
+def _only_from_kernels(compiled: F) -> F:
+    """Have calls from Python refused, for which there is no code."""
+    dispatcher: Any = compiled
+
+    def known_to_kernels(result: Any) -> None:
+        dispatcher.overloads[tuple(result.signature.args)] = result
+
+    def refused(*_: Any) -> NoReturn:
+        raise TypeError(f"only compiled kernels can call {dispatcher.py_func.__name__}")
+
+    dispatcher.add_overload = known_to_kernels
+    dispatcher._compile_for_args = refused
+    return compiled
 
 
 def restamp(compiled: Any, *folders: Path) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import atan2, cos, inf, pi, sin, sqrt
 
 from decomp.sites.carrier_kernels import TINY, CarrierTable, Triple, normal, signed_distance
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner, scalar
 from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
@@ -19,7 +19,7 @@ NEXT_TO_CONTACT = 1e-6
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
 
 
-@scalar
+@inner
 def line_foot(
     data: Array, e: int, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -35,7 +35,7 @@ def line_foot(
     return data[e, 0] + t * dx, data[e, 1] + t * dy, data[e, 2] + t * dz, beyond
 
 
-@scalar
+@inner
 def arc_foot(
     data: Array, e: int, x: float, y: float, z: float
 ) -> tuple[float, float, float, float]:
@@ -77,7 +77,7 @@ def circle_distance(data: Array, e: int, x: float, y: float, z: float) -> float:
     return sqrt(out * out + wx * wx + wy * wy + wz * wz)
 
 
-@scalar
+@inner
 def chord_foot(samples: Array, i: int, x: float, y: float, z: float) -> float:
     """Distance from the chord between samples i and i + 1."""
     ax, ay, az = samples[i, 0], samples[i, 1], samples[i, 2]
@@ -90,7 +90,7 @@ def chord_foot(samples: Array, i: int, x: float, y: float, z: float) -> float:
     return sqrt(rx * rx + ry * ry + rz * rz)
 
 
-@scalar
+@inner
 def curve_point(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, u: float
 ) -> tuple[bool, float, float, float, float, float, float]:
@@ -145,7 +145,7 @@ def chord_gap(table: CarrierTable, a: int, b: int, samples: Array, i: int) -> fl
     return 1.5 * gap
 
 
-@scalar
+@inner
 def advance(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, u: float, p: Triple
 ) -> tuple[bool, float, Triple]:
@@ -156,7 +156,7 @@ def advance(
     return good, ahead / max(sqrt(tx * tx + ty * ty + tz * tz), TINY), (x, y, z)
 
 
-@scalar
+@inner
 def from_end(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, end: float, p: Triple
 ) -> tuple[float, bool, float, Triple]:
@@ -174,7 +174,7 @@ def from_end(
     return u, good, ahead, q
 
 
-@scalar
+@inner
 def between_samples(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
 ) -> tuple[bool, Triple]:
@@ -203,7 +203,7 @@ def between_samples(
     return True, q
 
 
-@scalar
+@inner
 def sampled_foot(
     table: CarrierTable,
     carriers: tuple[int, int],

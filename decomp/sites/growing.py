@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from decomp.sites.compiled import kernel
+from decomp.sites.compiled import inner_kernel, kernel
 from decomp.vectors import Ints
 
 T = TypeVar("T", bound=np.generic)
@@ -22,7 +22,7 @@ def counted(start: int, count: int) -> Ints:
     return numbers
 
 
-@kernel
+@inner_kernel
 def grown(array: NDArray[T], size: int) -> NDArray[T]:
     """The array itself, or a longer copy where it is shorter than `size`."""
     if size <= len(array):

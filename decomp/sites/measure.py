@@ -6,7 +6,7 @@ from math import inf, sqrt
 from typing import NamedTuple
 
 from decomp.sites.carrier_kernels import foot, signed_distance
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner
 from decomp.sites.edge_feet import ARC, circle_distance
 from decomp.sites.occupancy import NOWHERE, OccupancyTree, on_boundary
 from decomp.sites.site_bounds import edge_foot
@@ -85,7 +85,7 @@ def better_inlined(
     return Hit(k, away, min(away, hit.least), qx, qy, qz, NOWHERE)
 
 
-@scalar
+@inner
 def better(
     occupancy: OccupancyTree,
     sites: SiteTable,

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.sites.carrier_kernels import CarrierTable, carrier_table, signed_distance
-from decomp.sites.compiled import inlined, scalar
+from decomp.sites.compiled import inlined, inner, scalar
 from decomp.sites.occupancy_cells import circumradius, root_cells, split
 from decomp.sites.occupancy_leaves import (
     OUTSIDE,
@@ -30,6 +30,7 @@ from decomp.sites.programs import (
     flips,
     programs_of,
 )
+from decomp.sites.records import Record
 from decomp.vectors import Array, Ints
 
 Labels = NDArray[np.int32]
@@ -45,7 +46,8 @@ ROUNDING = 1e-12
 """Signed distances below this, relative to the coordinates' size, may have either sign."""
 
 
-class OccupancyTree(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class OccupancyTree(Record):
     """The octree with its leaves.
 
     Args:
@@ -137,7 +139,7 @@ def label_at(occupancy: OccupancyTree, x: float, y: float, z: float) -> int:
     return int(leaves.labels[word])
 
 
-@scalar
+@inner
 def label_by_program(occupancy: OccupancyTree, k: int, x: float, y: float, z: float) -> int:
     """The same where too many carriers meet."""
     programs = occupancy.leaves.programs
@@ -196,7 +198,7 @@ def on_boundary(
     return int(slot) if patterns != NOTHING else NOWHERE
 
 
-@scalar
+@inner
 def on_boundary_by_program(
     occupancy: OccupancyTree, k: int, label: int, carrier: int, x: float, y: float, z: float
 ) -> int:

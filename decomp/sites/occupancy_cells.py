@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from decomp.sites.carrier_kernels import CarrierTable, signed_distance
-from decomp.sites.compiled import kernel, scalar
+from decomp.sites.compiled import inner, inner_kernel, kernel
 from decomp.sites.growing import counted
 from decomp.sites.programs import (
     EITHER,
@@ -40,7 +40,7 @@ def circumradius(half: float, slack: float) -> float:
     return sqrt(3.0) * half * (1 + 1e-9) + slack
 
 
-@kernel
+@inner_kernel
 def restrict_to_ball(
     table: CarrierTable,
     programs: Programs,
@@ -74,7 +74,7 @@ def root_cells(table: CarrierTable, program: Programs, centres: Array, radius: f
     return Cells(centres, counted(only, len(centres)), out)
 
 
-@scalar
+@inner
 def variables_of(programs: Programs, k: int) -> int:
     """Number of literals in program k."""
     count = 0

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import kernel, scalar
+from decomp.sites.compiled import inner, kernel
 from decomp.sites.growing import grown
 from decomp.sites.occupancy_cells import Cells, variables_of
 from decomp.sites.programs import (
@@ -50,7 +50,7 @@ class Leaves(NamedTuple):
     programs: Programs
 
 
-@scalar
+@inner
 def region_word(values: Words, label: int) -> np.uint64:
     """The word of a region, or of the outside."""
     if label != OUTSIDE:
@@ -61,7 +61,7 @@ def region_word(values: Words, label: int) -> np.uint64:
     return word
 
 
-@scalar
+@inner
 def constant_label(values: Words) -> int:
     """The region whose word is true, or OUTSIDE."""
     for r in range(len(values)):
@@ -70,7 +70,7 @@ def constant_label(values: Words) -> int:
     return OUTSIDE
 
 
-@scalar
+@inner
 def truth_words(programs: Programs, k: int, variable: Ints, words: Words, values: Words) -> None:
     """Evaluate program k; variable[i] is that of its i-th literal, -1 to hold it at "outside"."""
     first, seen = programs.nodes[k], 0
@@ -81,7 +81,7 @@ def truth_words(programs: Programs, k: int, variable: Ints, words: Words, values
     evaluate(programs, k, words, values)
 
 
-@scalar
+@inner
 def choose_variables(programs: Programs, k: int, variable: Ints, room: Words, values: Words) -> int:
     """Number those literals of program k that it depends on, and evaluate it.
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.csg.program import Program
-from decomp.sites.compiled import inlined, kernel, scalar
+from decomp.sites.compiled import inlined, inner, inner_kernel, kernel
 from decomp.vectors import Ints
 
 Words = NDArray[np.uint64]
@@ -59,7 +59,7 @@ def programs_of(program: Program) -> Programs:
     )
 
 
-@kernel
+@inner_kernel
 def restrict(programs: Programs, k: int, known: Bytes, out: Programs, sizes: Ints) -> None:
     """Append to `out` what is left of program k when some of its literals are known.
 
@@ -121,7 +121,7 @@ def restrict(programs: Programs, k: int, known: Bytes, out: Programs, sizes: Int
     sizes[0], sizes[1], sizes[2] = where + 1, base + count, end
 
 
-@scalar
+@inner
 def evaluate(programs: Programs, k: int, words: Words, values: Words) -> None:
     """Evaluate program k for 64 patterns.
 
@@ -165,14 +165,14 @@ def empty_programs(programs: int, nodes: int, operands: int, roots: int) -> Prog
     )
 
 
-@scalar
+@inner
 def copy(source: Ints, target: Ints, count: int) -> None:
     """Copy the first entries of an array."""
     for i in range(count):
         target[i] = source[i]
 
 
-@kernel
+@inner_kernel
 def with_room(programs: Programs, sizes: Ints, nodes: int, operands: int) -> Programs:
     """The same programs with room for one more of so many nodes and operands."""
     if (

@@ -5,13 +5,13 @@ from __future__ import annotations
 from math import asin, inf, sqrt
 
 from decomp.sites.carrier_kernels import CarrierTable, foot, foot_spread, signed_distance
-from decomp.sites.compiled import scalar
+from decomp.sites.compiled import inner
 from decomp.sites.edge_feet import LINE, SAMPLED, arc_foot, chord_foot, line_foot, sampled_foot
 from decomp.sites.site_boxes import box_distance
 from decomp.sites.site_table import SiteTable
 
 
-@scalar
+@inner
 def edge_foot(
     sites: SiteTable, carriers: CarrierTable, e: int, x: float, y: float, z: float, slack: float
 ) -> tuple[bool, float, float, float]:
@@ -38,7 +38,7 @@ def edge_foot(
     return past <= slack or sites.ended[e, 0] + sites.ended[e, 1] < 2, qx, qy, qz
 
 
-@scalar
+@inner
 def at_least(
     sites: SiteTable, carriers: CarrierTable, k: int, x: float, y: float, z: float
 ) -> float:
@@ -65,7 +65,7 @@ def at_least(
     return sqrt((qx - x) ** 2 + (qy - y) ** 2 + (qz - z) ** 2)
 
 
-@scalar
+@inner
 def possible(
     sites: SiteTable, carriers: CarrierTable, k: int, x: float, y: float, z: float, radius: float
 ) -> bool:

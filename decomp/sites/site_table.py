@@ -7,7 +7,6 @@ are numbered faces first, then pieces of edges, then vertices.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.sites.carrier_kernels import CarrierTable
 from decomp.sites.edge_feet import ARC, LINE, SAMPLED, chord_gap
+from decomp.sites.records import Record
 from decomp.sites.site_boxes import edge_box, face_box
 from decomp.vectors import Array, Ints
 
@@ -24,7 +24,8 @@ PIECE = 6
 SITE_CONVEXITIES = (Convexity.REENTRANT, Convexity.SADDLE)
 
 
-class SiteTable(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class SiteTable(Record):
     """Candidates of one region.
 
     Args:

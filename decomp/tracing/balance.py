@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from decomp.tracing.compiled import scalar
+from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.supports import SupportTable, support
 from decomp.vectors import Array, Ints
 
@@ -22,7 +22,7 @@ AT_REST = 4e-16
 Balanced = tuple[float, float, float, float, float]
 
 
-@scalar
+@inner
 def orthogonalise(work: Array, rows: int) -> None:
     """Rotate the three columns of J, rows 0 to `rows` of `work`, until they are orthogonal.
 
@@ -57,7 +57,7 @@ def orthogonalise(work: Array, rows: int) -> None:
             break
 
 
-@scalar
+@inner
 def measure(
     table: SupportTable,
     which: Ints,
@@ -89,7 +89,7 @@ def measure(
     return total / count, least, most
 
 
-@scalar
+@inner
 def balance(
     table: SupportTable,
     which: Ints,

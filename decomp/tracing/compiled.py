@@ -19,6 +19,11 @@ def scalar(function: F) -> F:
     return _stamped(base.scalar(function))
 
 
+def inner(function: F) -> F:
+    """A scalar kernel that only kernels can call, see `decomp.sites.compiled.inner`."""
+    return _stamped(base.inner(function))
+
+
 def inlined(function: F) -> F:
     """A scalar kernel that is compiled into its callers."""
     return _stamped(base.inlined(function))

@@ -7,13 +7,14 @@ every foot still on the boundary? A change between two points is narrowed down b
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf, sqrt
-from typing import NamedTuple
 
 import numpy as np
 
+from decomp.sites.records import Record
 from decomp.tracing.balance import balance
-from decomp.tracing.compiled import scalar
+from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.probing import (
     HOLDS,
     INTRUDED,
@@ -23,7 +24,7 @@ from decomp.tracing.probing import (
     Probe,
     another,
     inside,
-    nearest_hit,
+    nearest,
 )
 from decomp.tracing.supports import SupportTable
 from decomp.vectors import Array, Ints
@@ -44,7 +45,8 @@ BETWEEN = 8
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
 
 
-class Track(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Track(Record):
     """Room for the points of a seam with m contacts.
 
     Args:
@@ -127,7 +129,7 @@ def settle(
     return True
 
 
-@scalar
+@inner
 def advance(
     table: SupportTable,
     which: Ints,
@@ -175,7 +177,7 @@ def advance(
     return (bend >= TURN or not strict) and float(ahead) > 0.9 * length - rounding
 
 
-@scalar
+@inner
 def returns(track: Track, row: int, home: Array) -> bool:
     """Whether the step to a row passes `home`: a point and a tangent (6,)."""
     wx = track.points[row, 0] - track.points[row - 1, 0]
@@ -286,7 +288,7 @@ def follow(
             if q <= 0 and not inside(probe, px, py, pz):
                 away = -1.0
             else:
-                away = nearest_hit(probe, px, py, pz).distance
+                away = nearest(probe, px, py, pz).distance
             if q < 0:
                 if away < bound:
                     rough = True

@@ -6,17 +6,19 @@ names sites.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
-from decomp.sites.box_tree import BoxTree, nearest_in_boxes
+from decomp.sites.box_tree import BoxTree
 from decomp.sites.candidates import CandidateTree
 from decomp.sites.carrier_kernels import Triple, foot
-from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
+from decomp.sites.measure import Hit
+from decomp.sites.nearest import nearest_hit
 from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
+from decomp.sites.records import Record
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
-from decomp.tracing.compiled import inlined, scalar
+from decomp.tracing.compiled import inner
 from decomp.vectors import Array
 
 TOUCH = 1e-11
@@ -28,7 +30,8 @@ APART = 1e-3
 """Feet farther apart than this part of the radius are different contacts."""
 
 
-class Probe(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Probe(Record):
     """All that queries in one region need.
 
     Args:
@@ -58,27 +61,21 @@ def probe_of(
     return Probe(occupancy, sites, candidates, boxes, label, TOUCH * size)
 
 
-@inlined
+@inner
 def inside(probe: Probe, x: float, y: float, z: float) -> bool:
     """Whether a point is in the region."""
     return label_at(probe.occupancy, x, y, z) == probe.label
 
 
-@inlined
-def nearest_hit(probe: Probe, x: float, y: float, z: float) -> Hit:
+@inner
+def nearest(probe: Probe, x: float, y: float, z: float) -> Hit:
     """The nearest boundary point of the region, for points in it or close to it."""
-    hit = no_hit()
-    leaf = locate(probe.candidates.tree, x, y, z)
-    if leaf >= 0:
-        for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
-            k = probe.candidates.items[m]
-            hit = better_inlined(probe.occupancy, probe.sites, probe.label, k, x, y, z, hit)
-    if hit.candidate == NONE:
-        hit = nearest_in_boxes(probe.occupancy, probe.sites, probe.boxes, probe.label, x, y, z)
-    return hit
+    return nearest_hit(
+        probe.occupancy, probe.sites, probe.candidates, probe.boxes, probe.label, x, y, z
+    )
 
 
-@inlined
+@inner
 def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple:
     """The foot on a candidate's support, or on a part of an edge."""
     sites = probe.sites
@@ -92,7 +89,7 @@ def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple
     return sites.vertices[v, 0], sites.vertices[v, 1], sites.vertices[v, 2]
 
 
-@scalar
+@inner
 def another(
     probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
 ) -> bool:
@@ -113,7 +110,7 @@ def another(
         if known:
             continue
         px, py, pz = x + TOWARDS * (qx - x), y + TOWARDS * (qy - y), z + TOWARDS * (qz - z)
-        away = nearest_hit(probe, px, py, pz).distance
+        away = nearest(probe, px, py, pz).distance
         if away <= (1.0 - TOWARDS) * radius + probe.slack:
             return True
     return False

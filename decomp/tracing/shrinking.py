@@ -10,8 +10,8 @@ from __future__ import annotations
 from math import sqrt
 
 from decomp.sites.measure import NONE
-from decomp.tracing.compiled import inlined, scalar
-from decomp.tracing.probing import Probe, candidate_foot, inside, nearest_hit
+from decomp.tracing.compiled import inner, scalar
+from decomp.tracing.probing import Probe, candidate_foot, inside, nearest
 from decomp.vectors import Array, Ints
 
 ROUNDS = 1000
@@ -23,7 +23,7 @@ CREPT = 1e-5
 TOUCHES, OSCULATES, RESTLESS, SIZELESS = range(4)
 
 
-@inlined
+@inner
 def polish(
     probe: Probe,
     k: int,
@@ -97,7 +97,7 @@ def shrink(
             x, y, z = qx + r * nx, qy + r * ny, qz + r * nz
             hx, hy, hz, reach, met, k = x, y, z, 0.0, False, -1
             if inside(probe, x, y, z):
-                hit = nearest_hit(probe, x, y, z)
+                hit = nearest(probe, x, y, z)
                 if hit.candidate != NONE:
                     hx, hy, hz, reach, met = hit.x, hit.y, hit.z, hit.distance, True
                     k = hit.candidate

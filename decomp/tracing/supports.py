@@ -8,8 +8,8 @@ and all vertices have supports, whether they are sites or not.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import sqrt
-from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -30,8 +30,9 @@ from decomp.sites.carrier_kernels import (
     radial,
     signed_distance,
 )
+from decomp.sites.records import Record
 from decomp.sites.site import Site, SiteKind
-from decomp.tracing.compiled import scalar
+from decomp.tracing.compiled import inner
 from decomp.vectors import Array, Ints
 
 FACE, LINE, CIRCLE, CURVE, POINT, NOTHING = range(6)
@@ -43,7 +44,8 @@ FOOT_STEPS = 60
 Field = tuple[float, float, float, float, float, float, float]
 
 
-class SupportTable(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class SupportTable(Record):
     """Supports of all sites, in their order, then of the region's edges, then of its vertices.
 
     Args:
@@ -122,7 +124,7 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
     )
 
 
-@scalar
+@inner
 def support(
     table: SupportTable, k: int, x: float, y: float, z: float, qx: float, qy: float, qz: float
 ) -> Field:
@@ -162,7 +164,7 @@ def support(
     return away, gx, gy, gz, qx, qy, qz
 
 
-@scalar
+@inner
 def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> Triple:
     """Unit tangent of an edge's curve at a point on it; its sense is arbitrary but continuous."""
     kind, data = table.kinds[k], table.data
@@ -188,7 +190,7 @@ def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> 
     return tx / length, ty / length, tz / length
 
 
-@scalar
+@inner
 def normal_curvature(
     table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
 ) -> float:
@@ -214,7 +216,7 @@ def normal_curvature(
     return float(around * around * parallel + across * across / packed[c, 7])
 
 
-@scalar
+@inner
 def curve_foot(
     table: CarrierTable,
     a: int,

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.sites.carrier_kernels import normal
 from decomp.sites.site import Site, SiteKind
-from decomp.tracing.compiled import scalar
+from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.following import Track, advance
 from decomp.tracing.supports import SupportTable, support, tangent_at
 from decomp.vectors import Array, Ints
@@ -80,7 +80,7 @@ class Walls:
                 ]
 
 
-@scalar
+@inner
 def wall_gap(
     table: SupportTable,
     edge: int,
@@ -109,7 +109,7 @@ def wall_gap(
     return (x - qx) * cx + (y - qy) * cy + (z - qz) * cz
 
 
-@scalar
+@inner
 def gap_ahead(
     table: SupportTable,
     which: Ints,

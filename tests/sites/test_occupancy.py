@@ -6,15 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numba import njit
 
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import model
 from decomp.csg.primitives import HalfSpace, Sphere
 from decomp.csg.solid import Solid, intersection
-from decomp.sites.occupancy import NOWHERE, labels_of, occupancy_tree, on_boundary, private
+from decomp.sites import occupancy as kernels
+from decomp.sites.occupancy import NOWHERE, labels_of, occupancy_tree, private
 from tests.sites.random_solids import trees
 from tests.sites.reference import accepted, clear_of, labels
 
+on_boundary = njit(kernels.on_boundary.py_func)
 BOX = np.array([[-3.0, -3, -3], [3, 3, 3]])
 
 
