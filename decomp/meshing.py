@@ -41,6 +41,9 @@ CHORD, COARSEST = 0.4, 0.6
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
 
+SURFACE = 0.3
+"""Which part of the whole is behind when there is a complex."""
+
 Progress = Callable[[str, float], None]
 
 
@@ -87,11 +90,11 @@ def mesh(
         if value not in allowed:
             raise InputError(f"{what} must be one of {allowed}, got {value!r}")
     wanted = Wanted(size, layers, elements_per_circle)
-    maker = SurfaceMaker(geometry, lambda what: tell(what, 0.0))
+    maker = SurfaceMaker(geometry, lambda what, done: tell(what, SURFACE * done))
     sizes = region_sizes(geometry, wanted)
     by_face = cells == "face"
     made, epsilon = _surface(geometry, maker, float(sizes.min()), by_face)
-    tell("sizing", 0.3)
+    tell("sizing", SURFACE)
     wish = wishes(geometry, made, wanted)
     epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
     if made.tolerance > COARSEST * epsilon:

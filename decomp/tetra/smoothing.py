@@ -1,5 +1,6 @@
 """Nodes moved to where the tetrahedra around them have better angles, many at a time.
 
+They go towards the middle of their neighbours first, then wherever a small step at random helps.
 In each round nodes are chosen of which no two are neighbours, so that every tetrahedron has at most
 one of them and all moves can be judged together.
 """
@@ -11,11 +12,14 @@ from collections.abc import Callable
 import numpy as np
 
 from decomp.tetra.faces import EDGES, edges_of, least_dihedral
-from decomp.vectors import Array, Bools, Ints
+from decomp.vectors import Array, Bools, Ints, norm
 
 ROUNDS = 40
 TOWARDS = 0.6
 """A node goes this part of the way to the middle of its neighbours."""
+WANDERING = 60
+STRIDE = 0.12
+"""Then it is tried in so many places nearby, at most this part of its mean edge away."""
 SOUND = 20.0
 """The least angle (degrees) at a node may fall, but not below this."""
 
@@ -46,7 +50,10 @@ def smoothed(
     movable = free | held
     random = np.random.default_rng(seed)
     quality = least_dihedral(points, tets)
-    for _ in range(ROUNDS):
+    length = np.bincount(
+        ends[:, 0], norm(points[ends[:, 0]] - points[ends[:, 1]]), minlength=len(points)
+    ) / np.maximum(np.bincount(ends[:, 0], minlength=len(points)), 1)
+    for turn in range(ROUNDS + WANDERING):
         rank = np.where(movable, random.random(len(points)), -1.0)
         best = np.zeros(len(points))
         np.maximum.at(best, ends[:, 0], rank[ends[:, 1]])
@@ -58,7 +65,10 @@ def smoothed(
             ],
             axis=1,
         )
-        wanted = points + TOWARDS * (middle / number[:, None] - points)
+        if turn < ROUNDS:
+            wanted = points + TOWARDS * (middle / number[:, None] - points)
+        else:
+            wanted = points + STRIDE * length[:, None] * random.uniform(-1, 1, size=points.shape)
         on = np.flatnonzero(chosen & held)
         wanted[on], good = place(on, wanted[on])
         chosen[on[~good]] = False

@@ -26,6 +26,8 @@ from decomp.medial.trim_maker import owners
 from decomp.sites.site import Site
 from decomp.tetra.content import contents
 
+TRACING = 0.7
+"""Which part of the work is behind when all curves are traced."""
 VOLUME = 2e-3
 """How far the cells' volumes may sum up off the region's, relative to it."""
 
@@ -71,13 +73,13 @@ class SurfaceMaker:
 
     Args:
         geometry: of the model.
-        tell: is told what is being done.
+        tell: is told what is being done, and which part (0 to 1) of a first complex is behind.
 
     Raises:
         GeometryError: the skeleton cannot be computed; says where.
     """
 
-    def __init__(self, geometry: Geometry, tell: Callable[[str], None]) -> None:
+    def __init__(self, geometry: Geometry, tell: Callable[[str, float], None]) -> None:
         self._geometry, self._tell = geometry, tell
         self._curves: list[RegionCurves] = []
         self._tried = 0
@@ -85,7 +87,9 @@ class SurfaceMaker:
 
     def _trace(self) -> None:
         self._curves = traced(
-            self._geometry, SAMPLES[self._tried], lambda what, _: self._tell(what)
+            self._geometry,
+            SAMPLES[self._tried],
+            lambda what, done: self._tell(what, TRACING * done),
         )
         self._tried += 1
 
@@ -99,7 +103,7 @@ class SurfaceMaker:
         Raises:
             GeometryError: a cell is not closed, or the cells do not fill their region.
         """
-        self._tell("triangulating sheets")
+        self._tell("triangulating sheets", TRACING)
         while True:
             try:
                 draft = drafted(self._geometry, self._curves, tolerance, with_trims=by_face)

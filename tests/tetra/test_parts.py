@@ -187,7 +187,7 @@ def test_distance_from_a_polyline() -> None:
 @pytest.mark.parametrize("name", ["sphere", "cylinder", "conical pit", "blind hole"])
 def test_bent_triangles_hold_what_the_region_does(name: str) -> None:
     geometry = decomp.Geometry(SOLIDS[name].make())
-    made = SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+    made = SurfaceMaker(geometry, lambda *_: None).made(2e-3 * geometry.diagonal, False)
     region = made.regions[0]
     total = sum(cell.volume for cell in region.cells)
     assert total == pytest.approx(region.boundary.volume, rel=2e-4)
@@ -200,7 +200,7 @@ def test_every_pair_of_a_bracket_s_cells_is_parted_once() -> None:
     from decomp.tetra.layout import layout
 
     geometry = decomp.Geometry(SOLIDS["bracket"].make())
-    made = SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+    made = SurfaceMaker(geometry, lambda *_: None).made(2e-3 * geometry.diagonal, False)
     cells = cell_map(made)
     plan = layout(made, cells)
     listed = list(itertools.chain(*plan.between.values()))
@@ -226,7 +226,7 @@ def test_a_squashed_element_is_mended_and_the_boundary_stays() -> None:
 def test_trim_surfaces_of_face_cells_are_exact() -> None:
     """Those over a saddle edge are cut along normals, which end in vertices of the edge."""
     geometry = decomp.Geometry(SOLIDS["unequal tee"].make())
-    made = SurfaceMaker(geometry, lambda what: None).made(0.005 * geometry.diagonal, True)
+    made = SurfaceMaker(geometry, lambda *_: None).made(0.005 * geometry.diagonal, True)
     feet = region_curves(geometry.index, geometry.regions[0], 0, 2000).turning_feet()
     assert len(feet) >= 4
     points = made.complex.points

@@ -21,7 +21,7 @@ ORIGIN = vector((0, 0, 0), "origin")
 
 def surface_of(solid: Solid) -> tuple[decomp.Geometry, MeshSurface]:
     geometry = decomp.Geometry(solid)
-    return geometry, SurfaceMaker(geometry, lambda what: None).made(2e-3 * geometry.diagonal, False)
+    return geometry, SurfaceMaker(geometry, lambda *_: None).made(2e-3 * geometry.diagonal, False)
 
 
 def test_principal_curvatures() -> None:
