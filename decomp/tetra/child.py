@@ -26,6 +26,7 @@ from decomp.vectors import Array, Ints
 WORKER = Path(__file__).with_name("worker.py")
 EDGE_IN_EPSILONS = 6.0
 """Edges are at least so many epsilons long."""
+ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
@@ -143,7 +144,7 @@ def tetrahedralized(
             tell(f"{notes[-1]}, trying again with other settings")
             continue
         return Tetrahedra(found * scale + centre, tets, attempt, tuple(notes))
-    raise MeshingError("; then ".join(notes))
+    raise MeshingError("; then ".join(notes) + f". {ADVICE}")
 
 
 def _check(points: Array, triangles: Ints, settings: Settings) -> None:
