@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.certificate.distance import triangle_distance, triangle_tree
 from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
 from decomp.tetra.cells import OUTSIDE, CellMap, locate
@@ -19,6 +20,8 @@ ASIDE = 0.5
 """Triangles' own sides are asked so many epsilons off them."""
 JUMP = 4.0
 """Feet jump across a sheet by at least so many epsilons."""
+OWN = 1.2
+"""Nodes on the sheet of an edge with itself are at most so many epsilons off it at first."""
 TURNED = 3.0
 """A normal at right angles to a face's counts as much as a distance of so many epsilons."""
 
@@ -74,8 +77,9 @@ class Tagger:
             faces: of the tetrahedra.
         """
         parts = np.where(faces.tets == NONE, OUTSIDE, part[faces.tets])
-        rows = np.flatnonzero(parts[:, 0] != parts[:, 1])
-        parts, triangles = parts[rows], faces.triangles[rows]
+        alone = self._on_own_sheets(points, faces.triangles, parts)
+        rows = np.flatnonzero((parts[:, 0] != parts[:, 1]) | (alone >= 0))
+        alone, parts, triangles = alone[rows], parts[rows], faces.triangles[rows]
         sides, regions = self._cells.cell_of(parts), self._cells.region_of(parts)
         swapped = self._second_first(sides, regions)
         triangles = np.where(swapped[:, None], triangles[:, ::-1], triangles)
@@ -89,6 +93,7 @@ class Tagger:
             points, triangles[~outer & ~inner], sides[~outer & ~inner]
         )
         patches[inner] = self._inside(points, triangles[inner], parts[inner])
+        patches = np.where(alone >= 0, alone, patches)
         kept = patches >= 0
         return Tagged(triangles[kept], sides[kept], patches[kept])
 
@@ -121,18 +126,46 @@ class Tagger:
                 if patch in self._plan.inside and low != high:
                     pairs.setdefault((low, high), []).append(patch)
         corners = points[triangles]
-        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), 1e-300))[:, None]
-        middle = corners.mean(axis=1)
-        asked = np.concatenate([middle - way, middle + way])
-        feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
-        jumps = norm(feet[0] - feet[1]) > JUMP * self._epsilon
+        jumps = self._jumps(corners)
         ordered = np.sort(parts, axis=1)
         for (low, high), patches in pairs.items():
             rows = np.flatnonzero(jumps & (ordered == (low, high)).all(axis=1))
             if len(rows):
                 found[rows] = self._nearest(corners[rows], tuple(patches))
         return found
+
+    def _on_own_sheets(self, points: Array, triangles: Ints, parts: Ints) -> Ints:
+        """The sheet of an edge with itself that each triangle lies on, -1 for those on none."""
+        found = np.full(len(triangles), -1, dtype=np.int64)
+        mesh = self._plan.complex
+        for region in self._surface.regions:
+            for patch, (one, two) in region.sheets.items():
+                if one != two:
+                    continue
+                rows = np.flatnonzero((parts == self._cells.part[one]).all(axis=1))
+                corners = mesh.points[mesh.patches[patch].triangles]
+                near = self._near(points, np.unique(triangles[rows]), corners)
+                rows = rows[near[triangles[rows]].all(axis=1)]
+                found[rows[self._jumps(points[triangles[rows]])]] = patch
+        return found
+
+    def _near(self, points: Array, nodes: Ints, corners: Array) -> Bools:
+        """Which of all points are nodes within some epsilons of triangles with given corners."""
+        reach = OWN * self._epsilon
+        low, high = corners.min(axis=(0, 1)) - reach, corners.max(axis=(0, 1)) + reach
+        nodes = nodes[((points[nodes] >= low) & (points[nodes] <= high)).all(axis=1)]
+        near = np.zeros(len(points), dtype=np.bool_)
+        near[nodes] = triangle_distance(triangle_tree(corners), points[nodes]) <= reach
+        return near
+
+    def _jumps(self, corners: Array) -> Bools:
+        """Whether the feet on both sides of triangles, given by their corners, are far apart."""
+        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+        middle = corners.mean(axis=1)
+        asked = np.concatenate([middle - way, middle + way])
+        feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
+        return np.asarray(norm(feet[0] - feet[1]) > JUMP * self._epsilon)
 
     @staticmethod
     def _second_first(sides: Ints, regions: Ints) -> Bools:
