@@ -146,13 +146,16 @@ def test_neighbours_share_their_interface() -> None:
 
 
 def test_the_sheet_of_an_edge_with_itself_is_tagged() -> None:
-    """Under the saddle edge of a tee: both its sides are in one cell."""
+    """Under the saddle edge of a tee: both its sides are in one cell.
+
+    It is a few elements large and ends in points, so that chords leave out some of it.
+    """
     mesh, sheets = meshed("unequal tee"), decomp.skeleton(geometry("unequal tee")).regions[0].sheets
     (sheet,) = (sheet for sheet in sheets if sheet.sites[0] == sheet.sites[1])
     tag = mesh.group("solid/run.side+branch.side|run.side+branch.side", 2).tag
     a, b, c = np.moveaxis(mesh.points[mesh.triangles[mesh.triangle_tags == tag]], 1, 0)
     area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
-    assert area == pytest.approx(sheet.area, rel=0.1)
+    assert 0.65 * sheet.area < area < 1.02 * sheet.area
 
 
 def test_regions_without_sheets() -> None:
