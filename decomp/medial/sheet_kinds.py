@@ -95,7 +95,7 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
         return SheetKind(pair, parity, _plane_through(skeleton.complex.points[used], size), None)
     pieces = []
     for f, g in _pieces(one, two, skeleton.complex, sheet.patch):
-        found = surface(f, g, parity, size=size)
+        found = surface(f, g, parity, size=size, exists=True)
         pieces.append(SheetKind(pair, parity, found.shape, found))
     return replace(pieces[0], also=tuple(pieces[1:]))
 

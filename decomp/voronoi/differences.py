@@ -14,11 +14,11 @@ import numpy as np
 from decomp.vectors import Array, norm
 from decomp.voronoi.exact import floats, inner, minus
 from decomp.voronoi.kinds import Kind
-from decomp.voronoi.polynomial import Polynomial, height, linear, rational
+from decomp.voronoi.polynomial import Polynomial, linear, rational
 from decomp.voronoi.position import Axis, aligned
 from decomp.voronoi.profile import CurveKind, ProfileCircle, voronoi_curve
-from decomp.voronoi.shape import Shape, shape
-from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite, TorusSite
+from decomp.voronoi.shape import Shape, plane_pair, shape
+from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite
 
 Found = tuple[Shape, Polynomial | None]
 
@@ -80,21 +80,13 @@ def equal_tubes(f: CylinderSite, g: CylinderSite, tolerance: float) -> Found:
     return found, polynomial
 
 
-def equal_rings(f: TorusSite, g: TorusSite) -> Found:
-    """Congruent tori with a common centre: Theorem 4.10. |z_f| = |z_g| for the heights z."""
-    u, v = Axis(f.centre, f.axis).unit, Axis(g.centre, g.axis).unit
-    raw = height(f.centre, f.axis) ** 2 * rational(inner(g.axis, g.axis))
-    raw -= height(f.centre, g.axis) ** 2 * rational(inner(f.axis, f.axis))
-    return _bisectors(floats(f.centre), u, v), Polynomial.of(raw, f.centre)
-
-
 def _bisectors(middle: Array, u: Array, v: Array) -> Shape:
     """The planes at right angles to u and v together, through their two bisectors."""
     normal = np.cross(u, v)
     z = normal / norm(normal)
     bisector = (u + v) / norm(u + v)
     x = (bisector + np.cross(z, bisector)) / sqrt(2)
-    return shape(Kind.PLANE_PAIR, middle, z, x, half_angle=pi / 4)
+    return plane_pair(middle, z, x, pi / 4)
 
 
 def parallel_tubes(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from decomp.voronoi.coaxial import coaxial_surface
+from decomp.voronoi.common_apex import about_one_sphere
 from decomp.voronoi.differences import (
     ball_and_tube,
-    equal_rings,
     equal_tubes,
     parallel_tubes,
     tubes_for_cones,
@@ -21,7 +21,6 @@ from decomp.voronoi.sites import (
     CylinderSite,
     PlaneSite,
     SphereSite,
-    TorusSite,
 )
 
 
@@ -57,12 +56,7 @@ def recognise(
             return parallel_tubes(f, g, e, tolerance, angle)
         equal = abs(float(f.radius - e * g.radius)) <= tolerance
         return equal_tubes(f, g, tolerance) if equal else None
-    if isinstance(f, ConeSite) and isinstance(g, ConeSite):
+    if isinstance(f, ConeSite) and isinstance(g, ConeSite) and aligned(f.axis, g.axis, angle):
         tubes = tubes_for_cones(f, g, e, angle)
         return None if tubes is None else parallel_tubes(*tubes, e, tolerance, angle)
-    if isinstance(f, TorusSite) and isinstance(g, TorusSite) and e > 0:
-        sizes = abs(float(f.major - g.major)), abs(float(f.minor - g.minor))
-        gaps = [abs(float(a - b)) for a, b in zip(f.centre, g.centre, strict=True)]
-        if max(*sizes, *gaps) <= tolerance:
-            return equal_rings(f, g)
-    return None
+    return about_one_sphere(f, g, e, tolerance, angle)

@@ -20,6 +20,7 @@ from decomp.voronoi.curve_site import of_curve
 from decomp.voronoi.degrees import general_degree
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import exact, floats, minus
+from decomp.voronoi.existence import degenerate
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.recognise import recognise
@@ -42,6 +43,7 @@ class VoronoiSurface:
         parity: even or odd.
         size: of the model; lengths below `TOLERANCE` times it count as zero.
         shape: canonical parameters, None for a general surface.
+        special: shape and polynomial are those of a special position of the sites.
     """
 
     f: VoronoiSite
@@ -49,6 +51,7 @@ class VoronoiSurface:
     parity: Parity
     size: float
     shape: Shape | None
+    special: bool
     _known: Polynomial | None
 
     @property
@@ -60,10 +63,10 @@ class VoronoiSurface:
     def polynomial(self) -> Polynomial | None:
         """The implicit polynomial, which vanishes on the surface and perhaps elsewhere.
 
-        None for an empty surface, for edge curves whose distance has no known equation, and
-        between two conics: it has thousands of terms.
+        None where a special position makes the surface empty, for edge curves whose distance has
+        no known equation, and between two conics: it has thousands of terms.
         """
-        if self.shape is not None:
+        if self.special:
             return self._known
         if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
             return None
@@ -158,6 +161,7 @@ def surface(
     parity: Parity | str | None = None,
     *,
     size: float | None = None,
+    exists: bool = False,
 ) -> VoronoiSurface:
     """The Voronoi surface of two sites: carriers, curves (lines, circles, edges) or points (3,).
 
@@ -166,6 +170,8 @@ def surface(
             them there is no odd surface, and with a carrier the odd one lies inside it.
         size: the model's, by which lengths and angles are judged to be zero; by default the
             largest of the sites' radii and the distance between them.
+        exists: the surface is known to have points, so that it need not be found out whether
+            one of no special kind is empty.
 
     Raises:
         InputError: the sites coincide, or are points or curves both and odd is asked for.
@@ -174,11 +180,14 @@ def surface(
     which = Parity(parity.value if isinstance(parity, Parity) else parity or "even")
     if which is Parity.ODD and not (one.two_sided or two.two_sided):
         raise InputError(f"{one.name} and {two.name} have no inside, so no odd Voronoi surface")
-    if size is None:
-        apart = float(norm(floats(minus(one.reference, two.reference))))
-        size = max(one.size, two.size, apart) or 1.0
+    own = max(one.size, two.size, float(norm(floats(minus(one.reference, two.reference))))) or 1.0
+    size = own if size is None else size
     found = None
     if isinstance(one, CarrierSite) and isinstance(two, CarrierSite):
         found = recognise(one, two, which.sign, TOLERANCE * size, TOLERANCE)
-    shape, known = (None, None) if found is None else found
-    return VoronoiSurface(one, two, which, size, shape, known)
+    if found is not None:
+        return VoronoiSurface(one, two, which, size, found[0], True, found[1])
+    bare = None
+    if not exists and (one.two_sided or two.two_sided):
+        bare = degenerate(one, two, which.sign, TOLERANCE * size, own)
+    return VoronoiSurface(one, two, which, size, bare, False, None)
