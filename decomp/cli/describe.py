@@ -90,7 +90,7 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
                 str(row["id"]),
                 " / ".join(row["sites"]),
                 row["parity"] or "-",
-                " + ".join([row["kind"], *(other["kind"] for other in row.get("also", ()))]),
+                " + ".join(_kind(piece) for piece in (row, *row.get("also", ()))),
                 f"{row['area']:.6g}",
                 f"{row['radius'][0]:.4g} to {row['radius'][1]:.4g}",
                 _short(row["equation"]),
@@ -104,6 +104,11 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
             for (kind, degree), count in counts.most_common()
         ]
     return lines
+
+
+def _kind(piece: dict[str, Any]) -> str:
+    whole = piece.get("part_of")
+    return str(piece["kind"] if whole is None else f"{piece['kind']} ({whole['kind']})")
 
 
 def _aligned(table: list[tuple[str, ...]]) -> list[str]:

@@ -1,7 +1,7 @@
 """Pairs whose equidistant points form quadratic cones about one point c.
 
-Of two sites with axes u1, u2 through c let z_i be the height and rho_i the distance from axis i, both
-as seen from c. Where equal distance means
+Of two sites with axes u1, u2 through c let z_i be the height and rho_i the distance from axis i,
+both as seen from c. Where equal distance means
 
     a1 rho1 + h1 z1 = a2 rho2 + h2 z2 = m   with   a1^2 + h1^2 = a2^2 + h2^2 = s,
 
@@ -9,9 +9,10 @@ the first form gives s |p|^2 - m^2 = (s z1 - h1 m)^2 / a1^2, the second the same
 
     (s z1 - h1 m) / a1 = +- (s z2 - h2 m) / a2:
 
-for either sign m is linear in p, and the surface a quadratic cone, or a plane if m drops out. That is so
-for cones and cylinders about one sphere (a = cos, h = -sin of the half-angle, and the radii of the
-spheres agree) and for circles and equal tubes on one sphere (a = R, h = the spine's height above c).
+for either sign m is linear in p, and the surface a quadratic cone, or a plane if m drops out. That
+is so for cones and cylinders about one sphere (a = cos, h = -sin of the half-angle, and the radii of
+the spheres agree) and for circles and equal tubes on one sphere (a = R, h = the spine's height
+above c).
 """
 
 from __future__ import annotations
@@ -164,9 +165,9 @@ def _part(
         return None
     if found.kind is Kind.PLANE and raw.total_degree() == 2:
         # a double plane
-        normal = exact_vector(found.axes[2], "a normal")
+        way = exact_vector(found.axes[2], "a normal")
         single = squarefree(raw)
-        raw = single if single.total_degree() == 1 else linear(normal, -inner(normal, c))
+        raw = single if single.total_degree() == 1 else linear(way, -inner(way, c))
     return found, Polynomial.of(raw, c)
 
 

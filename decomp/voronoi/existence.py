@@ -1,9 +1,9 @@
 """Whether two sites have a Voronoi surface at all: it is empty, or a line where they only touch.
 
-With h = s_f - e s_g, h is -e s_g on f and s_f on g. If h takes both signs there, it vanishes between.
-If it does not, and f and g have no common point, h keeps its sign everywhere: were s_f = e s_g = d at
-a point p, the ball about p of radius |d| would touch f and g, and lie on those sides of them on
-which g and f are not. If they only touch, it vanishes on the common normal alone.
+With h = s_f - e s_g, h is -e s_g on f and s_f on g. If h takes both signs there, it vanishes
+between. If it does not, and f and g have no common point, h keeps its sign everywhere: were s_f =
+e s_g = d at a point p, the ball about p of radius |d| would touch f and g, and lie on those sides of
+them on which g and f are not. If they only touch, it vanishes on the common normal alone.
 """
 
 from __future__ import annotations
@@ -74,15 +74,14 @@ def _common(
         except ContactError:
             return None
         return None if found.curves or len(found.nodes) else found.contacts
-    for here, there in ((one, two), (two, one)):
-        if isinstance(here, Carrier) and isinstance(there, Curve):
-            met = crossings(there, here, tolerance)
-            whole = met.contained or not met.tangential.all()
-            return None if whole else np.asarray(there.point(met.parameters))
-        if isinstance(here, Carrier) and not isinstance(there, Carrier):
-            off = abs(float(here.signed_distance(there)))
-            return there[None] if off <= tolerance else np.empty((0, 3))
-    return None
+    carrier, other = (one, two) if isinstance(one, Carrier) else (two, one)
+    assert isinstance(carrier, Carrier) and not isinstance(other, Carrier)
+    if isinstance(other, Curve):
+        met = crossings(other, carrier, tolerance)
+        whole = met.contained or not met.tangential.all()
+        return None if whole else np.asarray(other.point(met.parameters))
+    off = abs(float(carrier.signed_distance(other)))
+    return other[None] if off <= tolerance else np.empty((0, 3))
 
 
 def _geometry(site: VoronoiSite, middle: Array, reach: float) -> Carrier | Curve | Array:

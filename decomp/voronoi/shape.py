@@ -66,9 +66,10 @@ class Shape:
             return np.empty((0, 3))
         q, linear, constant = QUADRATICS[self.kind](self.parameters)
         # the equation for rho = 0, in units of the conic's size
-        unit = norm(linear) / float(np.abs(q).max()) + 1e-300
+        largest = float(np.abs(q).max())
+        unit = float(norm(linear)) / largest + sqrt(abs(constant) / largest)
         a, b, c = float(q[1, 1]) * unit**2, float(linear[1]) * unit, constant
-        small = TOLERANCE * max(abs(a), abs(b), abs(c))
+        small = TOLERANCE * float(max(abs(a), abs(b), abs(c)))
         if abs(a) <= small:
             z = np.array([-c / (2 * b)]) if abs(b) > small else np.empty(0)
         elif b**2 - a * c <= small**2:
