@@ -15,6 +15,7 @@ from decomp.errors import GeometryError, InputError
 from decomp.parity import Parity
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, dot, norm
+from decomp.voronoi.bending import Curvatures, level_curvatures
 from decomp.voronoi.conic_site import ConicSite, of_conic
 from decomp.voronoi.curve_site import of_curve
 from decomp.voronoi.degrees import general_degree
@@ -96,6 +97,18 @@ class VoronoiSurface:
         """Gradients (..., 3) of `difference`."""
         p = np.asarray(p, dtype=np.float64)
         return np.asarray(self.f.gradient(p) - self.parity.sign * self.g.gradient(p))
+
+    def curvatures(self, p: Array) -> Curvatures:
+        """Normal, principal curvatures and directions at points (..., 3) of the surface.
+
+        They are those of the surface of points with the same difference if p is not on it.
+
+        Raises:
+            GeometryError: the distances change alike: there is no tangent plane.
+        """
+        p = np.asarray(p, dtype=np.float64)
+        hessian = self.f.hessian(p) - self.parity.sign * self.g.hessian(p)
+        return level_curvatures(self.difference_gradient(p), hessian, p)
 
     def contains(self, p: Array) -> Bools:
         """Whether points (..., 3) truly are equidistant with the right parity.
