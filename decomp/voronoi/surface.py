@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -18,7 +19,7 @@ from decomp.vectors import Array, Bools, dot, norm
 from decomp.voronoi.bending import Curvatures, level_curvatures
 from decomp.voronoi.conic_site import ConicSite, of_conic
 from decomp.voronoi.curve_site import of_curve
-from decomp.voronoi.degrees import general_degree
+from decomp.voronoi.degrees import degree_on_line
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import exact, floats, minus
 from decomp.voronoi.existence import degenerate
@@ -33,6 +34,11 @@ ALGEBRAIC = (CarrierSite, ConicSite)
 NEWTON_STEPS = 40
 """Steps of a projection; it converges quadratically, within about six from close by."""
 HALVINGS = 12
+LINE = (
+    (Fraction(3, 7), Fraction(-5, 11), Fraction(2, 13)),
+    (Fraction(17, 19), Fraction(-23, 29), Fraction(31, 37)),
+)
+"""A point and a direction without relation to any model."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +71,8 @@ class VoronoiSurface:
         """The implicit polynomial, which vanishes on the surface and perhaps elsewhere.
 
         None where a special position makes the surface empty, for edge curves whose distance has
-        no known equation, and between two conics: it has thousands of terms.
+        no known equation, and between two conics: it has thousands of terms, and
+        `elimination.eliminate` takes a second with short parameters, minutes with floats.
         """
         if self.special:
             return self._known
@@ -77,9 +84,9 @@ class VoronoiSurface:
 
     @property
     def degree(self) -> int | None:
-        """Of the polynomial; between two conics in general position; else None."""
+        """Of the polynomial, between two conics found on a line only; else None."""
         if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
-            return general_degree(self.f.name, self.g.name)
+            return degree_on_line(self.f, self.g, self.parity.sign, *LINE)
         return None if self.polynomial is None else self.polynomial.degree
 
     @property
