@@ -29,7 +29,7 @@ HEAD = """\
 
 Written by `python -m benchmarks.sheet_kinds_table`; do not edit. For every model its sheets by
 kind and degree of the equation (two kinds where a sheet goes over from a cone's side to its apex;
-X
+`plane (1) of pair of planes` where the Voronoi surface is a pair and the sheet lies on one plane);
 the largest distance of a vertex from the canonical equation of its sheet (kinds that have one) and
 the largest difference of its distances from the two sites, both relative to the diagonal; the time
 for naming all sheets and finding their degrees, as part of the skeleton's.

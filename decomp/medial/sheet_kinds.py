@@ -31,6 +31,9 @@ from decomp.voronoi import (
 from decomp.voronoi.canonical import equation_of
 from decomp.voronoi.shape import shape
 
+EXACT = 1e-10
+"""Vertices lie on canonical equations to this part of the size, or the equation is another."""
+
 
 @dataclass(frozen=True, eq=False)
 class SheetKind:
@@ -94,8 +97,14 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
         used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
         return SheetKind(pair, parity, _plane_through(skeleton.complex.points[used], size), None)
     pieces = []
-    for f, g in _pieces(one, two, skeleton.complex, sheet.patch):
+    pairs = _pieces(one, two, skeleton.complex, sheet.patch)
+    for f, g in pairs:
         found = surface(f, g, parity, size=size, exists=True)
+        if len(pairs) == 1 and _off(found, skeleton.complex, sheet.patch) > EXACT * size:
+            # the sites may be in a special position to the tolerance only, not exactly
+            strict = surface(f, g, parity, size=size * EXACT, exists=True)
+            better = _off(strict, skeleton.complex, sheet.patch) <= EXACT * size
+            found = strict if better else found
         pieces.append(_named(pair, parity, found, skeleton.complex, sheet.patch))
     return replace(pieces[0], also=tuple(pieces[1:]))
 
@@ -111,6 +120,13 @@ def _named(
             part = found.shape.parts[int(np.argmin(gaps))]
             return SheetKind(pair, parity, part, found, part_of=found)
     return SheetKind(pair, parity, found.shape, found)
+
+
+def _off(found: VoronoiSurface, mesh: Complex, patch: int) -> float:
+    """Largest distance of a sheet's vertices from the canonical equation, 0 without one."""
+    if found.shape is None:
+        return 0.0
+    return float(found.shape.deviation(mesh.points[mesh.patches[patch].triangles]).max())
 
 
 def _alike(one: VoronoiSite, two: VoronoiSite, size: float) -> bool:

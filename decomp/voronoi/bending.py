@@ -1,7 +1,7 @@
 """How level surfaces bend: second derivatives of distances, principal curvatures.
 
-Where the foot q of a point p on a surface has the shape operator W, the Hessian of the distance d is
-W (I + d W)^-1: along each principal direction the reciprocal of the distance from the centre of
+Where the foot q of a point p on a surface has the shape operator W, the Hessian of the distance d
+is W (I + d W)^-1: along each principal direction the reciprocal of the distance from the centre of
 curvature. Written out for every carrier that leaves the closed forms below.
 """
 

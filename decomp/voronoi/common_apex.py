@@ -10,8 +10,8 @@ the first form gives s |p|^2 - m^2 = (s z1 - h1 m)^2 / a1^2, the second the same
     (s z1 - h1 m) / a1 = +- (s z2 - h2 m) / a2:
 
 for either sign m is linear in p, and the surface a quadratic cone, or a plane if m drops out. That
-is so for cones and cylinders about one sphere (a = cos, h = -sin of the half-angle, and the radii of
-the spheres agree) and for circles and equal tubes on one sphere (a = R, h = the spine's height
+is so for cones and cylinders about one sphere (a = cos, h = -sin of the half-angle, and the radii
+of the spheres agree) and for circles and equal tubes on one sphere (a = R, h = the spine's height
 above c).
 """
 

@@ -18,7 +18,7 @@ from decomp.voronoi.polynomial import Polynomial, linear, rational
 from decomp.voronoi.position import Axis, aligned
 from decomp.voronoi.profile import CurveKind, ProfileCircle, voronoi_curve
 from decomp.voronoi.shape import Shape, plane_pair, shape
-from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite
+from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite, TorusSite
 
 Found = tuple[Shape, Polynomial | None]
 
@@ -118,6 +118,21 @@ def parallel_tubes(
     kind = Kind.HYPERBOLIC_CYLINDER if curve.kind is CurveKind.HYPERBOLA else Kind.ELLIPTIC_CYLINDER
     found = shape(kind, centre, z, x, a=curve.a, b=curve.b)
     return found, Polynomial.of((u - v - k2) ** 2 - 4 * k2 * v, f.point)
+
+
+def level_rings(f: TorusSite, g: TorusSite, tolerance: float, angle: float) -> Found:
+    """Circles or equal tubes whose spines lie in one plane: (rho_f - R_f)^2 = (rho_g - R_g)^2.
+
+    The even and the odd surface of the cylinders through the spines, together.
+    """
+    tubes = CylinderSite(f.centre, f.axis, f.major), CylinderSite(g.centre, g.axis, g.major)
+    found = [parallel_tubes(*tubes, e, tolerance, angle) for e in (1, -1)]
+    kept = [(part, equation) for part, equation in found if equation is not None]
+    if len(kept) == 1:
+        return kept[0]
+    (one, first), (two, second) = kept
+    whole = Shape(Kind.TWO_SURFACES, one.origin, one.axes, {}, (one, two))
+    return whole, Polynomial.of(first.raw * second.raw, f.centre)
 
 
 def tubes_for_cones(

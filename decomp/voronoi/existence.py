@@ -2,8 +2,8 @@
 
 With h = s_f - e s_g, h is -e s_g on f and s_f on g. If h takes both signs there, it vanishes
 between. If it does not, and f and g have no common point, h keeps its sign everywhere: were s_f =
-e s_g = d at a point p, the ball about p of radius |d| would touch f and g, and lie on those sides of
-them on which g and f are not. If they only touch, it vanishes on the common normal alone.
+e s_g = d at a point p, the ball about p of radius |d| would touch f and g, and lie on those sides
+of them on which g and f are not. If they only touch, it vanishes on the common normal alone.
 """
 
 from __future__ import annotations

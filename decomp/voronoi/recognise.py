@@ -7,13 +7,14 @@ from decomp.voronoi.common_apex import about_one_sphere
 from decomp.voronoi.differences import (
     ball_and_tube,
     equal_tubes,
+    level_rings,
     parallel_tubes,
     tubes_for_cones,
     two_planes,
 )
 from decomp.voronoi.focal import focal_form, focal_surface
 from decomp.voronoi.polynomial import Polynomial
-from decomp.voronoi.position import aligned, common_axis
+from decomp.voronoi.position import Axis, aligned, common_axis
 from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import (
     CarrierSite,
@@ -21,6 +22,7 @@ from decomp.voronoi.sites import (
     CylinderSite,
     PlaneSite,
     SphereSite,
+    TorusSite,
 )
 
 
@@ -59,4 +61,8 @@ def recognise(
     if isinstance(f, ConeSite) and isinstance(g, ConeSite) and aligned(f.axis, g.axis, angle):
         tubes = tubes_for_cones(f, g, e, angle)
         return None if tubes is None else parallel_tubes(*tubes, e, tolerance, angle)
+    if isinstance(f, TorusSite) and isinstance(g, TorusSite) and aligned(f.axis, g.axis, angle):
+        level = abs(float(Axis(f.centre, f.axis).height(g.centre))) <= tolerance
+        equal = abs(float(f.minor - e * g.minor)) <= tolerance
+        return level_rings(f, g, tolerance, angle) if level and equal else None
     return about_one_sphere(f, g, e, tolerance, angle)

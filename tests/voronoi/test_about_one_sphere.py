@@ -12,7 +12,7 @@ from decomp.voronoi import CarrierSite, ConeSite, CylinderSite, Kind, TorusSite,
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import Vector
 from tests.voronoi.independent import check
-from tests.voronoi.instances import FEW, WAYS, angles, at, points, radii
+from tests.voronoi.instances import FEW, WAYS, across, angles, at, points, radii
 
 Angle = tuple[Fraction, Fraction]
 
@@ -88,3 +88,18 @@ def test_spheres_of_two_radii(
     assert found.degree == 4
     assert found.polynomial is not None
     assert len(found.polynomial.raw.factor()[1]) == pytest.approx(1)
+
+
+@FEW
+@given(points, st.sampled_from(WAYS), radii, radii, radii, st.sampled_from([0, "1/8"]))
+def test_level_rings(
+    c: Vector, way: Vector, r: Fraction, s: Fraction, gap: Fraction, tube: str
+) -> None:
+    """Spines in one plane: the even and the odd cylinder of the cylinders through them."""
+    f = TorusSite(c, way, r, tube)
+    g = TorusSite(at(c, across(way)[0], gap), way, s, tube)
+    found = surface(f, g, "even")
+    assert found.kind is not Kind.GENERAL
+    if gap not in (r + s, abs(r - s)):
+        assert (found.kind is Kind.TWO_SURFACES) == (abs(r - s) < gap < r + s)
+        checked(f, g, "even")
