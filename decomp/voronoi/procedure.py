@@ -204,10 +204,12 @@ def _near(
         gaps.append(np.linalg.norm(q - feet[0]) - np.linalg.norm(q - feet[1]))
         try:
             w, residual = solve(one, two, q, *feet)
-            return _described(f, g, one, two, w, residual)
         except GeometryError as error:
             reason = error
-    # a difference that keeps its sign far from zero has no zero near
+            continue
+        far = float(np.linalg.norm(w[:3] - p)) > reach
+        return None if far else _described(f, g, one, two, w, residual)
+    # a difference that has one sign at all these points is taken to have no zero near
     if min(gaps) > CLOSE * reach or max(gaps) < -CLOSE * reach:
         return None
     raise reason
