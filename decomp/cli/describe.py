@@ -93,7 +93,7 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
                 " + ".join(_kind(piece) for piece in (row, *row.get("also", ()))),
                 f"{row['area']:.6g}",
                 f"{row['radius'][0]:.4g} to {row['radius'][1]:.4g}",
-                _short(row["equation"]),
+                _short(row["equation"]) if row["equation"] else row.get("remark", "-"),
             )
             for row in own
         ]
@@ -119,9 +119,7 @@ def _aligned(table: list[tuple[str, ...]]) -> list[str]:
     ]
 
 
-def _short(equation: str | None, most: int = 60) -> str:
-    if equation is None:
-        return "-"
+def _short(equation: str, most: int = 60) -> str:
     if len(equation) <= most:
         return equation
     return f"{equation.count(' + ') + equation.count(' - ') + 1} terms"

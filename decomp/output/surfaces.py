@@ -20,7 +20,8 @@ def surface_values(
     holds; of a surface of revolution that meets its axis the tips, and whether between two of them
     it has a spindle; lengths are in the model's units, angles in radians. Where the nearest point
     of a cone is its apex, the sheet goes over to another surface: `also`. Where the sheet lies on a
-    part of a Voronoi surface, as on one plane of a pair, the whole is told too: `part_of`.
+    part of a Voronoi surface, as on one plane of a pair, the whole is told too: `part_of`. Where no
+    equation is known a remark says why.
     """
     return lies_on(sheet_kind(skeleton, region, sheet), digits)
 
@@ -46,6 +47,8 @@ def _values(found: SheetKind, digits: int) -> dict[str, Any]:
         "degree": found.degree,
         "equation": found.equation(digits),
     }
+    if values["equation"] is None and found.surface is not None:
+        values["remark"] = found.surface.remark
     if found.shape is not None:
         values["origin"] = found.shape.origin.tolist()
         values["axes"] = found.shape.axes.tolist()

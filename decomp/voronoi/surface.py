@@ -94,6 +94,18 @@ class VoronoiSurface:
         """The polynomial as text, in the model's coordinates."""
         return None if self.polynomial is None else self.polynomial.text
 
+    @property
+    def remark(self) -> str | None:
+        """Why no equation is told, None where there is one."""
+        if self.polynomial is not None:
+            return None
+        if self.special:
+            return "the surface is empty"
+        if isinstance(self.f, ALGEBRAIC) and isinstance(self.g, ALGEBRAIC):
+            return f"no equation: of degree {self.degree} between two conics, it is found on demand"
+        names = " and ".join(s.name for s in (self.f, self.g) if not isinstance(s, ALGEBRAIC))
+        return f"no equation: the distance from an edge ({names}) has none that is known"
+
     def difference(self, p: Array) -> Array:
         """s_f - e s_g at points (..., 3), e = +1 (even) or -1 (odd): zero on the surface."""
         p = np.asarray(p, dtype=np.float64)

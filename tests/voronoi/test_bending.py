@@ -111,6 +111,7 @@ def test_edge_without_an_equation(found: VoronoiSurface) -> None:
         clear = np.abs(made.values[:, k]) < 5
         assert np.allclose(rise[clear] / s**2 * 2, made.values[clear, k], atol=0.05)
     assert found.polynomial is None and found.degree is None
+    assert found.remark is not None and "no equation: the distance from an edge" in found.remark
     with pytest.raises(GeometryError, match="change alike"):
         twin = surface((0, 0, 0), (1, 0, 0))
         twin.curvatures(np.array([5.0, 0.0, 0.0]))
