@@ -28,7 +28,8 @@ HEAD = """\
 # What the sheets of skeletons lie on
 
 Written by `python -m benchmarks.sheet_kinds_table`; do not edit. For every model its sheets by
-kind and degree of the equation (two kinds where a sheet goes over from a cone's side to its apex);
+kind and degree of the equation (two kinds where a sheet goes over from a cone's side to its apex;
+`plane (1) of pair of planes` where the Voronoi surface is a pair and the sheet lies on one plane);
 the largest distance of a vertex from the canonical equation of its sheet (kinds that have one) and
 the largest difference of its distances from the two sites, both relative to the diagonal; the time
 for naming all sheets and finding their degrees, as part of the skeleton's.
@@ -65,7 +66,8 @@ def row(name: str, skeleton: Skeleton, seconds: float) -> str:
 
 def _word(kind: SheetKind) -> str:
     degree = "" if kind.degree is None else f" ({kind.degree})"
-    return " + ".join([f"{kind.kind.value}{degree}", *map(_word, kind.also)])
+    whole = "" if kind.part_of is None else f" of {kind.part_of.kind.value}"
+    return " + ".join([f"{kind.kind.value}{degree}{whole}", *map(_word, kind.also)])
 
 
 def main(limit: int, names: list[str]) -> None:

@@ -90,10 +90,10 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
                 str(row["id"]),
                 " / ".join(row["sites"]),
                 row["parity"] or "-",
-                " + ".join([row["kind"], *(other["kind"] for other in row.get("also", ()))]),
+                " + ".join(_kind(piece) for piece in (row, *row.get("also", ()))),
                 f"{row['area']:.6g}",
                 f"{row['radius'][0]:.4g} to {row['radius'][1]:.4g}",
-                _short(row["equation"]),
+                _short(row["equation"]) if row["equation"] else row.get("remark", "-"),
             )
             for row in own
         ]
@@ -106,6 +106,11 @@ def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
     return lines
 
 
+def _kind(piece: dict[str, Any]) -> str:
+    whole = piece.get("part_of")
+    return str(piece["kind"] if whole is None else f"{piece['kind']} ({whole['kind']})")
+
+
 def _aligned(table: list[tuple[str, ...]]) -> list[str]:
     widths = [max(len(row[k]) for row in table) for k in range(len(table[0]))]
     return [
@@ -114,9 +119,7 @@ def _aligned(table: list[tuple[str, ...]]) -> list[str]:
     ]
 
 
-def _short(equation: str | None, most: int = 60) -> str:
-    if equation is None:
-        return "-"
+def _short(equation: str, most: int = 60) -> str:
     if len(equation) <= most:
         return equation
     return f"{equation.count(' + ') + equation.count(' - ') + 1} terms"

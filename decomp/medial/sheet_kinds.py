@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 
 import numpy as np
 
@@ -19,7 +20,6 @@ from decomp.voronoi import (
     ConeSite,
     CurveSite,
     Kind,
-    PlaneSite,
     Polynomial,
     Shape,
     SphereSite,
@@ -28,8 +28,11 @@ from decomp.voronoi import (
     site_of,
     surface,
 )
-from decomp.voronoi.exact import exact_vector
+from decomp.voronoi.canonical import equation_of
 from decomp.voronoi.shape import shape
+
+EXACT = 1e-10
+"""Vertices lie on canonical equations to this part of the size, or the equation is another."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +46,8 @@ class SheetKind:
         surface: Vor(f, g), None for a curve's sheet with itself.
         also: further surfaces of the sheet: where the nearest point of a cone is its apex it goes
             over smoothly to the Voronoi surface of the apex.
+        part_of: what Vor(f, g) is as a whole where the sheet lies on a part of it, such as one
+            plane of a pair, which has a shape of its own.
     """
 
     sites: tuple[Site, Site]
@@ -50,26 +55,24 @@ class SheetKind:
     shape: Shape | None
     surface: VoronoiSurface | None
     also: tuple[SheetKind, ...] = ()
+    part_of: VoronoiSurface | None = None
 
     @property
     def kind(self) -> Kind:
         """In the field's words."""
         return Kind.GENERAL if self.shape is None else self.shape.kind
 
-    @property
+    @cached_property
     def polynomial(self) -> Polynomial | None:
         """Its equation, None where none is known."""
-        if self.surface is not None:
+        if self.surface is not None and self.part_of is None:
             return self.surface.polynomial
-        if self.shape is None:
-            return None
-        plane = PlaneSite(exact_vector(self.shape.origin, "a point"), self.shape.axes[2].tolist())
-        return Polynomial.of(plane.distance, plane.point)
+        return None if self.shape is None else equation_of(self.shape)
 
     @property
     def degree(self) -> int | None:
         """Of its equation, as far as that is known."""
-        if self.surface is not None:
+        if self.surface is not None and self.part_of is None:
             return self.surface.degree
         return None if self.polynomial is None else self.polynomial.degree
 
@@ -94,10 +97,36 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
         used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
         return SheetKind(pair, parity, _plane_through(skeleton.complex.points[used], size), None)
     pieces = []
-    for f, g in _pieces(one, two, skeleton.complex, sheet.patch):
-        found = surface(f, g, parity, size=size)
-        pieces.append(SheetKind(pair, parity, found.shape, found))
+    pairs = _pieces(one, two, skeleton.complex, sheet.patch)
+    for f, g in pairs:
+        found = surface(f, g, parity, size=size, exists=True)
+        if len(pairs) == 1 and _off(found, skeleton.complex, sheet.patch) > EXACT * size:
+            # the sites may be in a special position to the tolerance only, not exactly
+            strict = surface(f, g, parity, size=size * EXACT, exists=True)
+            better = _off(strict, skeleton.complex, sheet.patch) <= EXACT * size
+            found = strict if better else found
+        pieces.append(_named(pair, parity, found, skeleton.complex, sheet.patch))
     return replace(pieces[0], also=tuple(pieces[1:]))
+
+
+def _named(
+    pair: tuple[Site, Site], parity: Parity, found: VoronoiSurface, mesh: Complex, patch: int
+) -> SheetKind:
+    """A sheet's surface, or the part of it (one of two planes) that holds all its vertices."""
+    if found.shape is not None and found.shape.parts:
+        p = mesh.points[np.unique(mesh.patches[patch].triangles)]
+        gaps = [float(part.deviation(p).max()) for part in found.shape.parts]
+        if min(gaps) <= TOLERANCE * found.size:
+            part = found.shape.parts[int(np.argmin(gaps))]
+            return SheetKind(pair, parity, part, found, part_of=found)
+    return SheetKind(pair, parity, found.shape, found)
+
+
+def _off(found: VoronoiSurface, mesh: Complex, patch: int) -> float:
+    """Largest distance of a sheet's vertices from the canonical equation, 0 without one."""
+    if found.shape is None:
+        return 0.0
+    return float(found.shape.deviation(mesh.points[mesh.patches[patch].triangles]).max())
 
 
 def _alike(one: VoronoiSite, two: VoronoiSite, size: float) -> bool:

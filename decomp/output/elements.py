@@ -13,7 +13,7 @@ import numpy as np
 from decomp.cells.surface import used_points
 from decomp.complex.model import LineKind
 from decomp.medial.result import Parity, RegionSkeleton, Skeleton, SkeletonLine
-from decomp.medial.sheet_kinds import sheet_kind
+from decomp.medial.sheet_kinds import SheetKind, sheet_kinds
 from decomp.vectors import Array, Ints
 from decomp.voronoi import Kind
 
@@ -43,6 +43,7 @@ class Elements:
             `decomp.voronoi.Kind`, -1 for what is none.
         degree: of that surface's equation, -1 where none is known.
         sheet_names: `region/sheet-N` by number.
+        sheet_kinds: what each sheet lies on, by number.
     """
 
     points: Array
@@ -59,6 +60,7 @@ class Elements:
     surface: Ints
     degree: Ints
     sheet_names: tuple[str, ...]
+    sheet_kinds: tuple[SheetKind, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +86,8 @@ def elements(skeleton: Skeleton, *, boundary: bool = False, trims: bool = False)
         boundary: lay out the boundary's faces and edges too.
         trims: lay out the trim surfaces too.
     """
-    groups = list(_skeleton_groups(skeleton))
+    kinds = [k for region in skeleton.regions for k in sheet_kinds(skeleton, region)]
+    groups = list(_skeleton_groups(skeleton, kinds))
     if boundary:
         groups += _boundary_groups(skeleton)
     if trims:
@@ -121,6 +124,7 @@ def elements(skeleton: Skeleton, *, boundary: bool = False, trims: bool = False)
             for region, first in zip(skeleton.regions, first_sheets(skeleton), strict=True)
             for k in range(len(region.sheets))
         ),
+        tuple(kinds),
     )
 
 
@@ -143,12 +147,12 @@ def _stacked(groups: Sequence[_Group], count: int) -> Ints:
     return np.concatenate([np.empty((0, count), dtype=np.int64), *parts])
 
 
-def _skeleton_groups(skeleton: Skeleton) -> Iterator[_Group]:
+def _skeleton_groups(skeleton: Skeleton, kinds: Sequence[SheetKind]) -> Iterator[_Group]:
     mesh = skeleton.complex
     numbers = zip(skeleton.regions, first_sheets(skeleton), first_seams(skeleton), strict=True)
     for at, (region, first_sheet, first_seam) in enumerate(numbers):
         for k, sheet in enumerate(region.sheets):
-            lies_on = sheet_kind(skeleton, region, sheet)
+            lies_on = kinds[first_sheet + k]
             yield _Group(
                 mesh.patches[sheet.patch].triangles,
                 "sheet",

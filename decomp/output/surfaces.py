@@ -17,11 +17,25 @@ def surface_values(
 
     The equation has integer coefficients where they are short, else rounded ones of which the
     largest is 1. Origin and axes (as rows) are the frame in which the kind's canonical equation
-    holds; lengths are in the model's units, angles in radians. Where the nearest point of a cone is
-    its apex, the sheet goes over to another surface: `also`.
+    holds; of a surface of revolution that meets its axis the tips, and whether between two of them
+    it has a spindle; lengths are in the model's units, angles in radians. Where the nearest point
+    of a cone is its apex, the sheet goes over to another surface: `also`. Where the sheet lies on a
+    part of a Voronoi surface, as on one plane of a pair, the whole is told too: `part_of`. Where no
+    equation is known a remark says why.
     """
-    found = sheet_kind(skeleton, region, sheet)
+    return lies_on(sheet_kind(skeleton, region, sheet), digits)
+
+
+def lies_on(found: SheetKind, digits: int = DIGITS) -> dict[str, Any]:
+    """The same of a sheet whose kind is known."""
     values = _values(found, digits)
+    if found.part_of is not None:
+        whole = found.part_of
+        values["part_of"] = {
+            "kind": whole.kind.value,
+            "degree": whole.degree,
+            "equation": None if whole.polynomial is None else whole.polynomial.decimals(digits),
+        }
     if found.also:
         values["also"] = [_values(other, digits) for other in found.also]
     return values
@@ -33,8 +47,13 @@ def _values(found: SheetKind, digits: int) -> dict[str, Any]:
         "degree": found.degree,
         "equation": found.equation(digits),
     }
+    if values["equation"] is None and found.surface is not None:
+        values["remark"] = found.surface.remark
     if found.shape is not None:
         values["origin"] = found.shape.origin.tolist()
         values["axes"] = found.shape.axes.tolist()
         values["parameters"] = {name: float(v) for name, v in found.shape.parameters.items()}
+        if len(found.shape.tips):
+            values["tips"] = found.shape.tips.tolist()
+            values["spindle"] = found.shape.spindle
     return values

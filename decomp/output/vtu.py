@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.output.elements import Elements
+from decomp.output.sheet_tables import Table, sheet_tables
 
 Arrays: TypeAlias = Mapping[str, NDArray[Any]]
 VTK_TRIANGLE, VTK_LINE, VTK_VERTEX = 5, 3, 1
@@ -25,7 +26,7 @@ def encoded(parts: Elements) -> bytes:
 
     Point data: radius. Cell data: sheet, sites, parity, surface (what a sheet lies on, an index
     into `elements.SURFACES`) and its degree, kind (an index into `elements.KINDS`), region, seam;
-    -1 stands for none.
+    -1 stands for none. Field data: what every sheet lies on, by its number (`sheet_tables`).
     """
     groups = (parts.triangles, parts.segments, parts.singles)
     sizes = np.repeat([3, 2, 1], [len(group) for group in groups])
@@ -51,6 +52,7 @@ def encoded(parts: Elements) -> bytes:
         f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{order}" '
         'header_type="UInt64">',
         "<UnstructuredGrid>",
+        *_field(sheet_tables(parts.sheet_kinds, parts.sheet_names)),
         f'<Piece NumberOfPoints="{len(parts.points)}" NumberOfCells="{len(sizes)}">',
         *_section("Points", {"Points": parts.points}),
         *_section("Cells", cells),
@@ -63,14 +65,25 @@ def encoded(parts: Elements) -> bytes:
     return "\n".join(lines).encode("ascii") + b"\n"
 
 
+def _field(tables: Mapping[str, Table]) -> list[str]:
+    if not tables:
+        return []
+    arrays = []
+    for name, table in tables.items():
+        words = [f'NumberOfTuples="{len(table.values)}"']
+        words += [f'ComponentName{k}="{column}"' for k, column in enumerate(table.columns)]
+        arrays.append(_array(name, table.values, f" {' '.join(words)}"))
+    return ["<FieldData>", *arrays, "</FieldData>"]
+
+
 def _section(tag: str, arrays: Arrays) -> list[str]:
     inner = [_array(name, values) for name, values in arrays.items()]
     return [f"<{tag}>", *inner, f"</{tag.split()[0]}>"]
 
 
-def _array(name: str, values: NDArray[Any]) -> str:
+def _array(name: str, values: NDArray[Any], more: str = "") -> str:
     width = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
     data = np.ascontiguousarray(values).tobytes()
     text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
     kind = TYPES[values.dtype.name]
-    return f'<DataArray type="{kind}" Name="{name}"{width} format="binary">{text}</DataArray>'
+    return f'<DataArray type="{kind}" Name="{name}"{width}{more} format="binary">{text}</DataArray>'

@@ -12,11 +12,14 @@ from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.vectors import Array, cross, dot, norm
+from decomp.voronoi.bending import about_curve, about_point
 from decomp.voronoi.exact import Vector, exact, exact_vector
 from decomp.voronoi.sites import CylinderSite, TorusSite, VoronoiSite
 
 SAMPLES = 256
 NEWTON_STEPS = 12
+STEP = 1e-5
+"""Of differences, in units of the domain."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,15 +55,8 @@ class CurveSite(VoronoiSite):
         at = t[np.argmin(gap, axis=1)]
         best = self.curve.point(at)
         step_limit = 2 * self.curve.period / SAMPLES
-        h = self.curve.period * 1e-6
         for _ in range(NEWTON_STEPS):
-            ahead, behind = (self.curve.wrapped(at + s * h) for s in (1.0, -1.0))
-            span = ahead - behind
-            if self.curve.closed:
-                span = np.full_like(at, 2 * h)
-            first = self.curve.derivative(at)
-            second = self.curve.derivative(ahead) - self.curve.derivative(behind)
-            second = second / span[:, None]
+            first, second = self.curve.derivative(at), self._second(at)
             away = self.curve.point(at) - flat
             slope = dot(first, first) + dot(away, second)
             slope = np.where(slope > 0, slope, dot(first, first))
@@ -69,6 +65,26 @@ class CurveSite(VoronoiSite):
         found = self.curve.point(at)
         nearer = norm(flat - found) <= norm(flat - best)
         return np.where(nearer[:, None], found, best).reshape(np.shape(p))
+
+    def hessian(self, p: Array) -> Array:
+        """Where an end of the curve is nearest it is that of the distance from a point."""
+        q = self.foot(p)
+        t = self.curve.parameter(q)
+        first = self.curve.derivative(t)
+        speed = norm(first)[..., None]
+        tangent, second = first / speed, self._second(t)
+        bend = (second - dot(second, tangent)[..., None] * tangent) / speed**2
+        away = p - q
+        slant = np.abs(dot(away, tangent)) > 1e-6 * norm(away)
+        return np.where(slant[..., None, None], about_point(away), about_curve(away, tangent, bend))
+
+    def _second(self, t: Array) -> Array:
+        """Second derivatives (..., 3), as differences of the first."""
+        h = self.curve.period * STEP
+        ahead, behind = (self.curve.wrapped(t + s * h) for s in (1.0, -1.0))
+        span = np.full_like(t, 2 * h) if self.curve.closed else ahead - behind
+        change = self.curve.derivative(ahead) - self.curve.derivative(behind)
+        return np.asarray(change / span[..., None])
 
     @cached_property
     def _samples(self) -> tuple[Array, Array]:

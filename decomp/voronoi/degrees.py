@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decomp.errors import InputError
 from decomp.voronoi.conic_site import ConicSite
-from decomp.voronoi.elimination import by_subtraction, in_two_steps, squarefree
+from decomp.voronoi.elimination import squarefree, without_offset
 from decomp.voronoi.exact import Vector
 from decomp.voronoi.polynomial import D, X, rational
 from decomp.voronoi.sites import CarrierSite
@@ -109,9 +109,4 @@ def degree_on_line(
     """
     x, y, z = (rational(a) + rational(b) * X for a, b in zip(start, way, strict=True))
     one, two = (site.compose(x, y, z, D) for site in (f.offset(1), g.offset(e)))
-    raw = by_subtraction(one, two)
-    if raw is None:
-        raw = in_two_steps(one, two)
-    if raw is None:
-        raw = one.resultant(two, "d")
-    return int(squarefree(raw).total_degree())
+    return int(squarefree(without_offset(one, two)).total_degree())

@@ -14,10 +14,10 @@ import numpy as np
 from decomp.vectors import Array, norm
 from decomp.voronoi.exact import floats, inner, minus
 from decomp.voronoi.kinds import Kind
-from decomp.voronoi.polynomial import Polynomial, height, linear, rational
+from decomp.voronoi.polynomial import Polynomial, linear, rational
 from decomp.voronoi.position import Axis, aligned
 from decomp.voronoi.profile import CurveKind, ProfileCircle, voronoi_curve
-from decomp.voronoi.shape import Shape, shape
+from decomp.voronoi.shape import Shape, plane_pair, shape
 from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite, TorusSite
 
 Found = tuple[Shape, Polynomial | None]
@@ -80,21 +80,13 @@ def equal_tubes(f: CylinderSite, g: CylinderSite, tolerance: float) -> Found:
     return found, polynomial
 
 
-def equal_rings(f: TorusSite, g: TorusSite) -> Found:
-    """Congruent tori with a common centre: Theorem 4.10. |z_f| = |z_g| for the heights z."""
-    u, v = Axis(f.centre, f.axis).unit, Axis(g.centre, g.axis).unit
-    raw = height(f.centre, f.axis) ** 2 * rational(inner(g.axis, g.axis))
-    raw -= height(f.centre, g.axis) ** 2 * rational(inner(f.axis, f.axis))
-    return _bisectors(floats(f.centre), u, v), Polynomial.of(raw, f.centre)
-
-
 def _bisectors(middle: Array, u: Array, v: Array) -> Shape:
     """The planes at right angles to u and v together, through their two bisectors."""
     normal = np.cross(u, v)
     z = normal / norm(normal)
     bisector = (u + v) / norm(u + v)
     x = (bisector + np.cross(z, bisector)) / sqrt(2)
-    return shape(Kind.PLANE_PAIR, middle, z, x, half_angle=pi / 4)
+    return plane_pair(middle, z, x, pi / 4)
 
 
 def parallel_tubes(
@@ -126,6 +118,21 @@ def parallel_tubes(
     kind = Kind.HYPERBOLIC_CYLINDER if curve.kind is CurveKind.HYPERBOLA else Kind.ELLIPTIC_CYLINDER
     found = shape(kind, centre, z, x, a=curve.a, b=curve.b)
     return found, Polynomial.of((u - v - k2) ** 2 - 4 * k2 * v, f.point)
+
+
+def level_rings(f: TorusSite, g: TorusSite, tolerance: float, angle: float) -> Found:
+    """Circles or equal tubes whose spines lie in one plane: (rho_f - R_f)^2 = (rho_g - R_g)^2.
+
+    The even and the odd surface of the cylinders through the spines, together.
+    """
+    tubes = CylinderSite(f.centre, f.axis, f.major), CylinderSite(g.centre, g.axis, g.major)
+    found = [parallel_tubes(*tubes, e, tolerance, angle) for e in (1, -1)]
+    kept = [(part, equation) for part, equation in found if equation is not None]
+    if len(kept) == 1:
+        return kept[0]
+    (one, first), (two, second) = kept
+    whole = Shape(Kind.TWO_SURFACES, one.origin, one.axes, {}, (one, two))
+    return whole, Polynomial.of(first.raw * second.raw, f.centre)
 
 
 def tubes_for_cones(

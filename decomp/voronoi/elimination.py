@@ -19,15 +19,30 @@ def eliminate(f: CarrierSite | ConicSite, g: CarrierSite | ConicSite, e: int) ->
     Raises:
         InputError: the offsets have a common factor: the sites coincide.
     """
-    one, two = f.offset(1), g.offset(e)
-    raw = by_subtraction(one, two)
-    if raw is None:
-        raw = in_two_steps(one, two)
-    if raw is None:
-        raw = one.resultant(two, "d")
+    raw = without_offset(f.offset(1), g.offset(e))
     if not len(raw):
         raise InputError("the two sites coincide: every point is equidistant from them")
     return Polynomial.of(squarefree(raw), f.reference)
+
+
+def without_offset(one: Raw, two: Raw) -> Raw:
+    """Both offsets without d, zero if they have a common factor."""
+    squares = [_in_square(raw) for raw in (one, two)]
+    if squares[0] is not None and squares[1] is not None:
+        # both know d^2 only, as those of points and curves do
+        one, two = squares[0], squares[1]
+    raw = by_subtraction(one, two)
+    if raw is None:
+        raw = in_two_steps(one, two)
+    return one.resultant(two, "d") if raw is None else raw
+
+
+def _in_square(raw: Raw) -> Raw | None:
+    """The same with d in place of d^2, None if it has odd powers of d."""
+    terms = raw.to_dict().items()
+    if any(int(e[3]) % 2 for e, _ in terms):
+        return None
+    return RING.from_dict({(*e[:3], int(e[3]) // 2): c for e, c in terms})
 
 
 def by_subtraction(one: Raw, two: Raw) -> Raw | None:

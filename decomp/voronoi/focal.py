@@ -18,7 +18,7 @@ from decomp.voronoi.exact import Vector, floats, inner, length, minus, moved
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, squared_distance_from_line
 from decomp.voronoi.position import Axis
-from decomp.voronoi.shape import Shape, shape
+from decomp.voronoi.shape import Shape, plane_pair, shape
 from decomp.voronoi.sites import (
     CarrierSite,
     ConeSite,
@@ -158,7 +158,7 @@ def _degenerate(origin: Array, z: Array, x: Array | None, slope: float, angle: f
         return shape(Kind.LINE, origin, z)
     if slope <= 1 + angle:
         return shape(Kind.PLANE, origin, np.cross(z, x), x)
-    return shape(Kind.PLANE_PAIR, origin, z, x, half_angle=atan(sqrt(slope**2 - 1)))
+    return plane_pair(origin, z, x, atan(sqrt(slope**2 - 1)))
 
 
 def _cross(a: Vector, b: Vector) -> Vector:

@@ -48,6 +48,8 @@ class Kind(Enum):
     """u^2 / a^2 + v^2 / b^2 = 1, a >= b"""
     REVOLVED_HYPERBOLA = "surface of revolution of a hyperbola"
     """u^2 / a^2 - v^2 / b^2 = 1"""
+    TWO_SURFACES = "two surfaces"
+    """each by its own equation: see `Shape.parts`"""
     GENERAL = "general algebraic surface"
     """known by its polynomial, or by its sites alone"""
     LINE = "line"

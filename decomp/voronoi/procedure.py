@@ -24,6 +24,7 @@ from decomp.voronoi.sites import CarrierSite
 from decomp.voronoi.stationary import stationary_feet
 
 NEWTON_STEPS = 15
+RESTARTS = 8
 CLOSE = 1e-9
 """Lengths below this part of the size are equal."""
 
@@ -144,8 +145,8 @@ def _system(sides: list[_Side], w: Array) -> tuple[Array, Array]:
 def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> list[VoronoiPoint]:
     """The solutions of the eight equations for two surfaces close to a point.
 
-    Newton's method starts from every pair of feet of the point. Where it does not converge, or ends
-    in an apex, that pair gives none.
+    Newton's method starts from every pair of feet of the point, and where that does not converge
+    from points around it, with the feet that they have on the same side.
 
     Args:
         f, g: surfaces; points, lines and circles have no normals of their own.
@@ -154,6 +155,8 @@ def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> li
 
     Raises:
         InputError: a site is no surface.
+        GeometryError: the distances of a pair of feet are equal somewhere near, but there is no
+            regular solution: a foot is an apex, or there is no tangent plane.
     """
     for site in (f, g):
         if site.name in ("point", "line", "circle"):
@@ -165,10 +168,8 @@ def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> li
             # within reach of p the two distances come no nearer to each other than this
             if abs(np.linalg.norm(p - u) - np.linalg.norm(p - v)) > 2 * reach:
                 continue
-            try:
-                w, residual = solve(one, two, p, u, v)
-                solution = _described(f, g, one, two, w, residual)
-            except GeometryError:
+            solution = _near(f, g, one, two, (p, u, v), reach)
+            if solution is None:
                 continue
             new = all(
                 np.linalg.norm(solution.feet - other.feet) > CLOSE * (1 + reach) for other in found
@@ -176,6 +177,42 @@ def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> li
             if new and np.linalg.norm(solution.point - p) <= reach:
                 found.append(solution)
     return found
+
+
+def _near(
+    f: CarrierSite,
+    g: CarrierSite,
+    one: Polynomial,
+    two: Polynomial,
+    start: tuple[Array, Array, Array],
+    reach: float,
+) -> VoronoiPoint | None:
+    """The solution that belongs to one pair of feet, None if there is none within reach.
+
+    Raises:
+        GeometryError: the difference of the feet's distances vanishes, but not regularly.
+    """
+    p, u, v = start
+    rng = np.random.default_rng(0)
+    gaps, reason = [], GeometryError("no solution is near")
+    for k in range(RESTARTS):
+        q = p if k == 0 else p + reach * rng.uniform(-1, 1, size=3) / 2
+        feet = [
+            near[int(np.argmin(np.linalg.norm(near - old, axis=1)))]
+            for near, old in ((stationary_feet(f, q), u), (stationary_feet(g, q), v))
+        ]
+        gaps.append(np.linalg.norm(q - feet[0]) - np.linalg.norm(q - feet[1]))
+        try:
+            w, residual = solve(one, two, q, *feet)
+        except GeometryError as error:
+            reason = error
+            continue
+        far = float(np.linalg.norm(w[:3] - p)) > reach
+        return None if far else _described(f, g, one, two, w, residual)
+    # a difference that has one sign at all these points is taken to have no zero near
+    if min(gaps) > CLOSE * reach or max(gaps) < -CLOSE * reach:
+        return None
+    raise reason
 
 
 def _described(

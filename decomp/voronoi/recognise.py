@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from decomp.voronoi.coaxial import coaxial_surface
+from decomp.voronoi.common_apex import about_one_sphere
 from decomp.voronoi.differences import (
     ball_and_tube,
-    equal_rings,
     equal_tubes,
+    level_rings,
     parallel_tubes,
     tubes_for_cones,
     two_planes,
 )
 from decomp.voronoi.focal import focal_form, focal_surface
 from decomp.voronoi.polynomial import Polynomial
-from decomp.voronoi.position import aligned, common_axis
+from decomp.voronoi.position import Axis, aligned, common_axis
 from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import (
     CarrierSite,
@@ -57,12 +58,11 @@ def recognise(
             return parallel_tubes(f, g, e, tolerance, angle)
         equal = abs(float(f.radius - e * g.radius)) <= tolerance
         return equal_tubes(f, g, tolerance) if equal else None
-    if isinstance(f, ConeSite) and isinstance(g, ConeSite):
+    if isinstance(f, ConeSite) and isinstance(g, ConeSite) and aligned(f.axis, g.axis, angle):
         tubes = tubes_for_cones(f, g, e, angle)
         return None if tubes is None else parallel_tubes(*tubes, e, tolerance, angle)
-    if isinstance(f, TorusSite) and isinstance(g, TorusSite) and e > 0:
-        sizes = abs(float(f.major - g.major)), abs(float(f.minor - g.minor))
-        gaps = [abs(float(a - b)) for a, b in zip(f.centre, g.centre, strict=True)]
-        if max(*sizes, *gaps) <= tolerance:
-            return equal_rings(f, g)
-    return None
+    if isinstance(f, TorusSite) and isinstance(g, TorusSite) and aligned(f.axis, g.axis, angle):
+        level = abs(float(Axis(f.centre, f.axis).height(g.centre))) <= tolerance
+        equal = abs(float(f.minor - e * g.minor)) <= tolerance
+        return level_rings(f, g, tolerance, angle) if level and equal else None
+    return about_one_sphere(f, g, e, tolerance, angle)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from math import cos, sin, tan
+from math import cos, sin, sqrt, tan
 
 import numpy as np
 
+from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, dot, frame, norm
 from decomp.voronoi.kinds import Kind
 
@@ -27,20 +28,26 @@ class Shape:
             surface of revolution of a conic also where its profile lies, in the half-plane of
             rho and z: `centre_rho` and `centre_z` (of a parabola the vertex) and `tilt`, the angle
             from the rho axis to u.
+        parts: the shapes that it is the union of: the two planes of a pair.
     """
 
     kind: Kind
     origin: Array
     axes: Array
     parameters: Mapping[str, float] = field(default_factory=dict)
+    parts: tuple[Shape, ...] = ()
 
     def local(self, p: Array) -> Array:
         """Coordinates (..., 3) in the frame."""
         return np.asarray((p - self.origin) @ self.axes.T)
 
     def deviation(self, p: Array) -> Array:
-        """Distances (...) of points (..., 3) from the surface, to first order."""
+        """Distances (...) of points (..., 3) from it to first order, infinite if it is empty."""
+        if self.parts:
+            return np.asarray(np.min([part.deviation(p) for part in self.parts], axis=0))
         w = self.local(np.asarray(p, dtype=np.float64))
+        if self.kind is Kind.EMPTY:
+            return np.full(w.shape[:-1], np.inf)
         if self.kind is Kind.LINE:
             return norm(w[..., :2])
         if self.kind is Kind.POINT:
@@ -52,12 +59,61 @@ class Shape:
         slope = 2 * norm(w @ q + linear)
         return np.abs(value) / np.where(slope > 0, slope, 1.0)
 
+    @property
+    def tips(self) -> Array:
+        """Where a surface of revolution of a conic meets its axis: points (k, 3) in order of z."""
+        if self.kind not in REVOLVED:
+            return np.empty((0, 3))
+        q, linear, constant = QUADRATICS[self.kind](self.parameters)
+        # the equation for rho = 0, in units of the conic's size
+        largest = float(np.abs(q).max())
+        unit = float(norm(linear)) / largest + sqrt(abs(constant) / largest)
+        a, b, c = float(q[1, 1]) * unit**2, float(linear[1]) * unit, constant
+        small = TOLERANCE * float(max(abs(a), abs(b), abs(c)))
+        if abs(a) <= small:
+            z = np.array([-c / (2 * b)]) if abs(b) > small else np.empty(0)
+        elif b**2 - a * c <= small**2:
+            z = np.empty(0)
+        else:
+            z = np.sort((-b + sqrt(b**2 - a * c) * np.array([1.0, -1.0])) / a)
+        z = z * unit
+        if self.kind is Kind.REVOLVED_HYPERBOLA:
+            way, p = self._recession, self.parameters
+            z = z[-p["centre_rho"] * way[0] + (z - p["centre_z"]) * way[1] > 0]
+        return np.asarray(self.origin + z[:, None] * self.axes[2])
+
+    @property
+    def spindle(self) -> bool:
+        """Whether a bounded part of it is closed at two tips on the axis (the paper's figure 14).
+
+        A parabolic torus, about a line parallel to the parabola's axis, has one tip and none.
+        """
+        return len(self.tips) == 2 and float(self._recession[0]) <= 0
+
+    @property
+    def _recession(self) -> Array:
+        """In rho and z the direction in which parabola or branch goes to infinity; else zero."""
+        turn = self.parameters.get("tilt", 0.0)
+        if self.kind is Kind.REVOLVED_PARABOLA:
+            return np.array([-sin(turn), cos(turn)])
+        if self.kind is Kind.REVOLVED_HYPERBOLA:
+            return np.array([cos(turn), sin(turn)])
+        return np.zeros(2)
+
 
 def shape(kind: Kind, origin: Array, z: Array, x: Array | None = None, /, **values: float) -> Shape:
     """Make one from its z axis and, where it matters, its x axis (unit vectors)."""
     if x is None:
         x, _ = frame(z)
     return Shape(kind, np.asarray(origin), np.stack([x, np.cross(z, x), z]), values)
+
+
+def plane_pair(origin: Array, z: Array, x: Array, half_angle: float) -> Shape:
+    """Two planes through the line along z, each at an angle from x."""
+    y, s, c = np.cross(z, x), sin(half_angle), cos(half_angle)
+    planes = tuple(shape(Kind.PLANE, origin, c * y - side * s * x, z) for side in (1, -1))
+    axes = np.stack([x, y, z])
+    return Shape(Kind.PLANE_PAIR, np.asarray(origin), axes, {"half_angle": half_angle}, planes)
 
 
 def _diagonal(x: float, y: float, z: float, constant: float) -> Quadratic:

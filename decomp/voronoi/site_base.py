@@ -14,6 +14,7 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.errors import InputError
 from decomp.vectors import Array
+from decomp.voronoi.bending import distance_hessian
 from decomp.voronoi.exact import Vector, exact, exact_direction, exact_vector
 from decomp.voronoi.polynomial import Raw
 
@@ -57,6 +58,10 @@ class VoronoiSite(ABC):
         s = self.signed_distance(p)[..., None]
         away = p - self.foot(p)
         return np.where(s != 0, away / np.where(s != 0, s, 1.0), 0.0)
+
+    @abstractmethod
+    def hessian(self, p: Array) -> Array:
+        """Second derivatives (..., 3, 3) of the signed distance, off the reflexive locus."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,3 +109,6 @@ class CarrierSite(VoronoiSite):
 
     def gradient(self, p: Array) -> Array:
         return self.carrier.normal(p)
+
+    def hessian(self, p: Array) -> Array:
+        return distance_hessian(self.carrier, np.asarray(p, dtype=np.float64))

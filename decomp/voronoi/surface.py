@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -15,11 +16,13 @@ from decomp.errors import GeometryError, InputError
 from decomp.parity import Parity
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, dot, norm
+from decomp.voronoi.bending import Curvatures, level_curvatures
 from decomp.voronoi.conic_site import ConicSite, of_conic
 from decomp.voronoi.curve_site import of_curve
-from decomp.voronoi.degrees import general_degree
+from decomp.voronoi.degrees import degree_on_line
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import exact, floats, minus
+from decomp.voronoi.existence import degenerate
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.recognise import recognise
@@ -31,6 +34,11 @@ ALGEBRAIC = (CarrierSite, ConicSite)
 NEWTON_STEPS = 40
 """Steps of a projection; it converges quadratically, within about six from close by."""
 HALVINGS = 12
+LINE = (
+    (Fraction(3, 7), Fraction(-5, 11), Fraction(2, 13)),
+    (Fraction(17, 19), Fraction(-23, 29), Fraction(31, 37)),
+)
+"""A point and a direction without relation to any model."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +50,7 @@ class VoronoiSurface:
         parity: even or odd.
         size: of the model; lengths below `TOLERANCE` times it count as zero.
         shape: canonical parameters, None for a general surface.
+        special: shape and polynomial are those of a special position of the sites.
     """
 
     f: VoronoiSite
@@ -49,6 +58,7 @@ class VoronoiSurface:
     parity: Parity
     size: float
     shape: Shape | None
+    special: bool
     _known: Polynomial | None
 
     @property
@@ -60,10 +70,11 @@ class VoronoiSurface:
     def polynomial(self) -> Polynomial | None:
         """The implicit polynomial, which vanishes on the surface and perhaps elsewhere.
 
-        None for an empty surface, for edge curves whose distance has no known equation, and
-        between two conics: it has thousands of terms.
+        None where a special position makes the surface empty, for edge curves whose distance has
+        no known equation, and between two conics: it has thousands of terms, and
+        `elimination.eliminate` takes a second with short parameters, minutes with floats.
         """
-        if self.shape is not None:
+        if self.special:
             return self._known
         if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
             return None
@@ -73,15 +84,27 @@ class VoronoiSurface:
 
     @property
     def degree(self) -> int | None:
-        """Of the polynomial; between two conics in general position; else None."""
+        """Of the polynomial, between two conics found on a line only; else None."""
         if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
-            return general_degree(self.f.name, self.g.name)
+            return degree_on_line(self.f, self.g, self.parity.sign, *LINE)
         return None if self.polynomial is None else self.polynomial.degree
 
     @property
     def equation(self) -> str | None:
         """The polynomial as text, in the model's coordinates."""
         return None if self.polynomial is None else self.polynomial.text
+
+    @property
+    def remark(self) -> str | None:
+        """Why no equation is told, None where there is one."""
+        if self.polynomial is not None:
+            return None
+        if self.special:
+            return "the surface is empty"
+        if isinstance(self.f, ALGEBRAIC) and isinstance(self.g, ALGEBRAIC):
+            return f"no equation: of degree {self.degree} between two conics, it is found on demand"
+        names = " and ".join(s.name for s in (self.f, self.g) if not isinstance(s, ALGEBRAIC))
+        return f"no equation: the distance from an edge ({names}) has none that is known"
 
     def difference(self, p: Array) -> Array:
         """s_f - e s_g at points (..., 3), e = +1 (even) or -1 (odd): zero on the surface."""
@@ -93,6 +116,18 @@ class VoronoiSurface:
         """Gradients (..., 3) of `difference`."""
         p = np.asarray(p, dtype=np.float64)
         return np.asarray(self.f.gradient(p) - self.parity.sign * self.g.gradient(p))
+
+    def curvatures(self, p: Array) -> Curvatures:
+        """Normal, principal curvatures and directions at points (..., 3) of the surface.
+
+        They are those of the surface of points with the same difference if p is not on it.
+
+        Raises:
+            GeometryError: the distances change alike: there is no tangent plane.
+        """
+        p = np.asarray(p, dtype=np.float64)
+        hessian = self.f.hessian(p) - self.parity.sign * self.g.hessian(p)
+        return level_curvatures(self.difference_gradient(p), hessian, p)
 
     def contains(self, p: Array) -> Bools:
         """Whether points (..., 3) truly are equidistant with the right parity.
@@ -158,6 +193,7 @@ def surface(
     parity: Parity | str | None = None,
     *,
     size: float | None = None,
+    exists: bool = False,
 ) -> VoronoiSurface:
     """The Voronoi surface of two sites: carriers, curves (lines, circles, edges) or points (3,).
 
@@ -166,6 +202,8 @@ def surface(
             them there is no odd surface, and with a carrier the odd one lies inside it.
         size: the model's, by which lengths and angles are judged to be zero; by default the
             largest of the sites' radii and the distance between them.
+        exists: the surface is known to have points, so that it need not be found out whether
+            one of no special kind is empty.
 
     Raises:
         InputError: the sites coincide, or are points or curves both and odd is asked for.
@@ -174,11 +212,14 @@ def surface(
     which = Parity(parity.value if isinstance(parity, Parity) else parity or "even")
     if which is Parity.ODD and not (one.two_sided or two.two_sided):
         raise InputError(f"{one.name} and {two.name} have no inside, so no odd Voronoi surface")
-    if size is None:
-        apart = float(norm(floats(minus(one.reference, two.reference))))
-        size = max(one.size, two.size, apart) or 1.0
+    own = max(one.size, two.size, float(norm(floats(minus(one.reference, two.reference))))) or 1.0
+    size = own if size is None else size
     found = None
     if isinstance(one, CarrierSite) and isinstance(two, CarrierSite):
         found = recognise(one, two, which.sign, TOLERANCE * size, TOLERANCE)
-    shape, known = (None, None) if found is None else found
-    return VoronoiSurface(one, two, which, size, shape, known)
+    if found is not None:
+        return VoronoiSurface(one, two, which, size, found[0], True, found[1])
+    bare = None
+    if not exists and (one.two_sided or two.two_sided):
+        bare = degenerate(one, two, which.sign, TOLERANCE * size, own)
+    return VoronoiSurface(one, two, which, size, bare, False, None)

@@ -21,6 +21,7 @@ from decomp.curves.parabola import Parabola
 from decomp.errors import GeometryError
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, cross, dot, norm
+from decomp.voronoi.canonical import equation_of
 from decomp.voronoi.exact import Vector, exact_vector
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, height, squared_distance_from_line
@@ -35,13 +36,18 @@ class TrimSurface:
         curve: the edge.
         carrier: the face's, whose normals they are.
         shape: its kind and place, None if it is of no special kind.
-        polynomial: of the ruled surface of an ellipse on a cylinder, else None.
+        conoid: the polynomial of the ruled surface of an ellipse on a cylinder, else None.
     """
 
     curve: Curve
     carrier: Carrier
     shape: Shape | None
-    polynomial: Polynomial | None
+    conoid: Polynomial | None
+
+    @property
+    def polynomial(self) -> Polynomial | None:
+        """The implicit polynomial where it is a plane, cone or cylinder, or a conoid; else None."""
+        return self.conoid if self.shape is None else equation_of(self.shape)
 
     @property
     def kind(self) -> Kind:

@@ -45,9 +45,11 @@ OTHERS = [
 def test_equidistant_points_lie_on_the_equation(curve: Curve, other: PlaneSite) -> None:
     for parity in ("even", "odd") if other.two_sided else ("even",):
         found = surface(curve, other, parity, size=5)
-        assert found.kind is Kind.GENERAL
+        assert found.kind in (Kind.GENERAL, Kind.EMPTY)
         assert isinstance(found.f, ConicSite)
-        check(found, count=24, needed=parity == "even")
+        # outside another site, or inside it, there is always something
+        points = check(found, count=24, needed=False)
+        assert bool(len(points)) == (found.kind is Kind.GENERAL)
 
 
 @pytest.mark.parametrize("curve", CONICS)

@@ -261,3 +261,42 @@ def test_the_angles_of_the_cone_of_a_cylinder() -> None:
     found = surface(PlaneSite((0, 0, 0), (0, 3, 4)), CylinderSite((0, 0, 0), (0, 0, 1), 1))
     assert found.shape is not None
     assert found.shape.parameters["half_angle_x"] == pytest.approx(pi / 4)
+
+
+@FEW
+@given(points, st.permutations(WAYS), angles, numbers)
+def test_base_of_the_cone(
+    p: Vector, some: list[Vector], angle: tuple[Fraction, Fraction], h: Fraction
+) -> None:
+    """Theorem 4.6 (iv): the conic where f and g meet is its base; through g's apex its apex too."""
+    f = PlaneSite(on(p, some[0], h), some[0])
+    g = ConeSite(p, some[1], *angle)
+    u, v = across(some[1])
+    e1, e2 = (np.array([float(c) for c in w]) for w in (u, v))
+    e1, e2 = e1 / np.linalg.norm(e1), e2 / np.linalg.norm(e2)
+    t = np.linspace(0, 6, 9)[:, None]
+    sine, cosine = (float(a) for a in angle)
+    rulings = sine * (np.cos(t) * e1 + np.sin(t) * e2) + cosine * g.carrier.axis
+    depth = float(f.carrier.signed_distance(g.carrier.apex))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = -depth / (rulings @ f.carrier.normal_vector)
+    met = np.isfinite(s) & (s >= 0) & (s < 1e3)
+    section = g.carrier.apex + s[met, None] * rulings[met]
+    for parity in PARITIES:
+        found = surface(f, g, parity)
+        assert found.shape is not None
+        assert found.contains(section).all()
+        assert found.shape.deviation(section).max(initial=0.0) <= 1e-9 * (1 + s[met].max(initial=0))
+        if h == 0 and found.kind in (Kind.CIRCULAR_CONE, Kind.ELLIPTIC_CONE):
+            assert np.allclose(found.shape.origin, g.carrier.apex, atol=1e-12)
+
+
+def test_plane_touches_cone() -> None:
+    """Theorem 4.6 (iv) along a ruling: a cone (even), and half a plane (odd)."""
+    f, g = PlaneSite((0, 0, 0), (4, 0, -3)), ConeSite((0, 0, 0), (0, 0, 1), "3/5", "4/5")
+    kinds = [surface(f, g, parity).kind for parity in PARITIES]
+    for parity in PARITIES:
+        found = surface(f, g, parity)
+        if found.kind.dimension == 2:
+            check(found, needed=False)
+    assert Kind.ELLIPTIC_CONE in kinds and Kind.GENERAL not in kinds

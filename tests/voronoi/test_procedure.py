@@ -11,7 +11,16 @@ from hypothesis import strategies as st
 
 from decomp.errors import GeometryError, InputError
 from decomp.vectors import Array, frame
-from decomp.voronoi import ConeSite, CylinderSite, Kind, Parity, PlaneSite, Polynomial, surface
+from decomp.voronoi import (
+    ConeSite,
+    CylinderSite,
+    Kind,
+    Parity,
+    PlaneSite,
+    Polynomial,
+    SphereSite,
+    surface,
+)
 from decomp.voronoi.procedure import Status, solve, voronoi_points
 from tests.voronoi.independent import equidistant_points
 from tests.voronoi.instances import FEW, SITES
@@ -139,3 +148,10 @@ def test_kinds_are_not_needed() -> None:
         if s.status is Status.TRUE and s.parity is Parity.EVEN
     ]
     assert np.allclose(s.curvatures, 0, atol=1e-12)
+
+
+def test_where_there_is_no_tangent_plane() -> None:
+    """On the normal at a contact the distances change alike: refused, not left out."""
+    f, g = PlaneSite((0, 0, 0), (0, 0, 1)), SphereSite((0, 0, 1), 1)
+    with pytest.raises(GeometryError, match="change alike"):
+        voronoi_points(f, g, np.array([0.0, 0.0, 0.5]), 0.1)

@@ -37,4 +37,8 @@ def test_kind_agrees_with_invariants(one: str, two: str, data: st.DataObject) ->
                 Kind.REVOLVED_PARABOLA,
                 Kind.REVOLVED_ELLIPSE,
                 Kind.REVOLVED_HYPERBOLA,
+                Kind.TWO_SURFACES,
+                Kind.EMPTY,
+                Kind.LINE,
+                Kind.POINT,
             )

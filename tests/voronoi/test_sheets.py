@@ -7,8 +7,10 @@ import time
 from collections import Counter
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
+import pyvista
 
 import decomp
 from decomp.cli.main import main
@@ -144,3 +146,47 @@ def test_describe(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_describe_what_is_wrong(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["describe", str(tmp_path / "missing.geo")]) != 0
     assert "error" in capsys.readouterr().err
+
+
+def test_sheets_on_one_plane_of_a_pair() -> None:
+    """Crossing holes of equal radius: their surface is a pair of planes, each sheet on one."""
+    skeleton = skeleton_of("equally cross-drilled block")
+    (region,) = skeleton.regions
+    found = [kind for kind in sheet_kinds(skeleton, region) if kind.part_of is not None]
+    assert len(found) == 4
+    for kind in found:
+        assert (kind.kind, kind.degree) == (Kind.PLANE, 1)
+        assert kind.part_of is not None and kind.part_of.kind is Kind.PLANE_PAIR
+        assert kind.equation() in ("x - z = 0", "x + z = 0")
+
+
+def test_vtu_holds_equations_by_sheet(tmp_path: Path) -> None:
+    """The same as the JSON form, for readers of VTK's files and for meshio."""
+    from decomp.output import as_json, vtu
+    from decomp.output.elements import elements
+
+    skeleton = skeleton_of("blind hole")
+    path = tmp_path / "out.vtu"
+    path.write_bytes(vtu.encoded(elements(skeleton)))
+    told = [sheet["surface"] for sheet in as_json.contents(skeleton)["regions"][0]["sheets"]]
+    grid = pyvista.read(path)
+    rows = json.loads(bytes(grid.field_data["sheets"]))
+    assert [{k: v for k, v in row.items() if k != "name"} for row in rows] == told
+    assert [row["name"] for row in rows] == [f"solid/sheet-{k}" for k in range(len(told))]
+    field = grid.GetFieldData()
+
+    def columns(name: str) -> list[str]:
+        array = field.GetAbstractArray(name)
+        return [array.GetComponentName(k) for k in range(array.GetNumberOfComponents())]
+
+    kinds, powers = columns("surface_counts"), columns("sheet_equation")
+    assert (powers[0], powers[-2:]) == ("x^4", ["z", "1"])
+    p = grid.points[grid.cells_dict[5]].mean(axis=1)
+    for k, row in enumerate(told):
+        assert kinds[grid.field_data["sheet_surface"][k]] == row["kind"]
+        assert grid.field_data["sheet_degree"][k] == row["degree"]
+        if row["degree"] == 1:
+            coefficients = grid.field_data["sheet_equation"][k][-4:]
+            own = p[grid.cell_data["sheet"][grid.celltypes == 5] == k]
+            assert np.abs(own @ coefficients[:3] + coefficients[3]).max() <= 1e-12
+    assert "sheet_equation" in meshio.read(path).field_data

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from decomp.voronoi import Kind, TorusSite, surface
+from decomp.voronoi import Kind, SphereSite, TorusSite, surface
 from decomp.voronoi.elimination import eliminate
 from decomp.voronoi.exact import Vector
 from tests.voronoi.independent import check
@@ -96,3 +96,20 @@ def test_congruent_with_common_centre(
     assert even.polynomial is not None
     # there is no additional component, not even of the equation
     assert eliminate(f, g, 1).raw == even.polynomial.raw
+
+
+@FEW
+@given(points, ways, radii, st.sampled_from([(3, 4, 5), (5, 12, 13), (8, 15, 17)]))
+def test_contact(p: Vector, way: Vector, s: Fraction, legs: tuple[int, int, int]) -> None:
+    """Theorems 4.7 (iv) and 4.10, tangent along a circle: the line of centres sweeps a cone."""
+    step, rise, gap = legs
+    r = gap - s
+    f = TorusSite(p, way, 40, s)
+    g = TorusSite(at(p, way, Fraction(rise)), way, 40 + step, r)
+    odd = surface(f, g, "odd")
+    assert odd.kind is Kind.CIRCULAR_CONE and odd.degree == 2
+    inner = TorusSite(at(p, way, Fraction(rise)), way, 40 + step, s + gap)
+    assert surface(f, inner, "even").kind is Kind.CIRCULAR_CONE
+    ring = TorusSite(p, way, step, min(s, Fraction(2)))
+    ball = SphereSite(at(p, way, Fraction(rise)), gap - ring.minor)
+    assert surface(ring, ball, "odd").kind is Kind.CIRCULAR_CONE
