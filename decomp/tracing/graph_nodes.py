@@ -104,7 +104,10 @@ class GraphNodes:
                 rays.append(replace(ray, contacts=contacts))
                 states.append(state)
         node = Node(point, touching.radius, touching.sites, touching.feet, tuple(rays))
-        return self.add(node, states)
+        number = self.add(node, states)
+        if arcs:
+            self._unforeseen.add(number)
+        return number
 
     def add(self, node: Node, states: Sequence[State]) -> int:
         """Add a node with the first points of its rays."""
