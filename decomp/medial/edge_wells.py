@@ -1,0 +1,111 @@
+"""The places of a curved edge that are nearest to a point, one for each stretch of the edge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.topology import Edge
+from decomp.vectors import Array, Ints, dot, norm
+
+SAMPLES = 1024
+"""Places along an edge that are closer together than two feet of one ball have to be."""
+HALVINGS = 40
+BLOCK = 512
+
+
+@dataclass(frozen=True, eq=False)
+class Wells:
+    """Samples of an edge that are nearer to a point than their neighbours.
+
+    Args:
+        row: the point (m,) of each, ascending.
+        sample: its number (m,) among the samples.
+        distance: (m,) from the point.
+    """
+
+    row: Ints
+    sample: Ints
+    distance: Array
+
+
+class EdgeWells:
+    """Looks for the nearest places of an edge.
+
+    Attributes:
+        t: parameters (s,) of the samples.
+        points: the samples (s, 3).
+    """
+
+    def __init__(self, edge: Edge) -> None:
+        self._edge = edge
+        count = SAMPLES if edge.closed else SAMPLES + 1
+        self.t: Array = edge.start + (edge.end - edge.start) * np.arange(count) / SAMPLES
+        self.points: Array = edge.curve.point(edge.curve.wrapped(self.t))
+
+    def around(self, points: Array, within: Array) -> Wells:
+        """The wells of points (k, 3) that are at most so much (k,) deeper than the deepest."""
+        rows, samples, distances = [], [], []
+        for start in range(0, len(points), BLOCK):
+            block = points[start : start + BLOCK]
+            away = norm(block[:, None] - self.points)
+            before, after = np.roll(away, 1, axis=1), np.roll(away, -1, axis=1)
+            if not self._edge.closed:
+                before[:, 0], after[:, -1] = np.inf, np.inf
+            least = away.min(axis=1) + within[start : start + BLOCK]
+            row, sample = np.nonzero((away <= before) & (away < after) & (away <= least[:, None]))
+            rows.append(row + start)
+            samples.append(sample)
+            distances.append(away[row, sample])
+        none = np.empty(0, dtype=np.int64)
+        return Wells(
+            np.concatenate([none, *rows]),
+            np.concatenate([none, *samples]),
+            np.concatenate([np.empty(0), *distances]),
+        )
+
+    def feet(self, points: Array, slack: float) -> list[Array]:
+        """For each of points (k, 3) the parameters of all its nearest places on the edge.
+
+        Distances that differ by less than `slack` count as equal.
+        """
+        spacing = float(self.t[1] - self.t[0])
+        found = self.around(points, np.full(len(points), spacing))
+        low, high = self.t[found.sample] - spacing, self.t[found.sample] + spacing
+        if not self._edge.closed:
+            low, high = np.maximum(low, self.t[0]), np.minimum(high, self.t[-1])
+        at, curve = points[found.row], self._edge.curve
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            t = curve.wrapped(middle)
+            ahead = dot(at - curve.point(t), curve.derivative(t)) > 0
+            low, high = np.where(ahead, middle, low), np.where(ahead, high, middle)
+        t = (low + high) / 2
+        distance = norm(curve.point(curve.wrapped(t)) - at)
+        result = []
+        for k in range(len(points)):
+            own = np.flatnonzero(found.row == k)
+            near = own[distance[own] <= distance[own].min() + slack]
+            result.append(self._different(np.sort(t[near]), 2 * spacing))
+        return result
+
+    def _different(self, t: Array, apart: float) -> Array:
+        """Sorted parameters without those that are one with their neighbours."""
+        if self._edge.closed:
+            period = self._edge.end - self._edge.start
+            t = np.sort(self._edge.start + np.mod(t - self._edge.start, period))
+        if len(t) < 2:
+            return t
+        kept = np.concatenate([[True], np.diff(t) > apart])
+        if self._edge.closed and t[0] + period - t[-1] <= apart:
+            kept[0] = int(kept.sum()) == 1
+        return np.asarray(t[kept])
+
+    def gap(self, one: Array, other: Array) -> Array:
+        """The signed way (...) along the edge from parameters to others, the shorter one."""
+        step = other - one
+        if self._edge.closed:
+            period = self._edge.end - self._edge.start
+            step = step - period * np.round(step / period)
+        return np.asarray(step)
