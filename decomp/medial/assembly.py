@@ -13,6 +13,7 @@ from decomp.errors import GeometryError
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
+from decomp.medial.rims import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheet_surface import SheetSurface
@@ -156,11 +157,12 @@ class RegionAssembler:
         self, points: Array, lines: Sequence[Ints], nodes: Sequence[int]
     ) -> list[SheetPart]:
         borders: dict[tuple[int, int], list[Ints]] = {}
-        rims: dict[tuple[int, int], list[bool]] = {}
+        rims: dict[tuple[int, int], list[RimCurve | None]] = {}
         for piece, line in zip(self._curves.pieces, lines, strict=True):
             for pair in set(piece.pairs):
                 borders.setdefault(pair, []).append(line)
-                rims.setdefault(pair, []).append(piece.kind is LineKind.RIM)
+                rim = piece.element if isinstance(piece.element, RimCurve) else None
+                rims.setdefault(pair, []).append(rim)
         incidence = self._curves.incidence
         for number, edge in enumerate(incidence.boundary.edges):
             if edge.convexity is Convexity.CONVEX:

@@ -12,6 +12,8 @@ from decomp.vectors import Array, Ints, dot, norm
 SAMPLES = 1024
 """Places along an edge that are closer together than two feet of one ball have to be."""
 HALVINGS = 40
+CLOSE = 3
+"""Samples beside a place that is nearest up to rounding or sampling."""
 BLOCK = 512
 
 
@@ -88,6 +90,52 @@ class EdgeWells:
             own = np.flatnonzero(found.row == k)
             near = own[distance[own] <= distance[own].min() + slack]
             result.append(self._different(np.sort(t[near]), 2 * spacing))
+        return result
+
+    def basins(self, points: Array, t: Array) -> Ints:
+        """The samples (k, 2) between which the distance from points (k, 3) falls to places t (k,).
+
+        They are the nearest of the farthest places on either side; ranges may pass the last sample.
+        """
+        away = norm(points[:, None] - self.points)
+        count = len(self.t)
+        start = np.clip(np.round((t - self.t[0]) / (self.t[1] - self.t[0])), 0, None)
+        middle = np.mod(start.astype(np.int64), count)
+        result = np.empty((len(points), 2), dtype=np.int64)
+        for column, side in enumerate((-1, 1)):
+            steps = side * np.arange(count if self._edge.closed else count + 1)
+            order = middle[:, None] + steps
+            if not self._edge.closed:
+                order = np.clip(order, 0, count - 1)
+            along = np.take_along_axis(away, np.mod(order, count), axis=1)
+            falls = np.diff(along, axis=1) < 0
+            # close to the place itself the distance can still fall
+            falls[:, :CLOSE] = False
+            falls[:, -1] = True
+            result[:, column] = order[np.arange(len(points)), np.argmax(falls, axis=1)]
+        return result
+
+    def deepest(self, points: Array, basins: Ints) -> Ints:
+        """The sample (k,) nearest to each of points (k, 3) in its basin (k, 2), and down from it."""
+        count, result = len(self.t), np.empty(len(points), dtype=np.int64)
+        for start in range(0, len(points), BLOCK):
+            rows = slice(start, start + BLOCK)
+            away = norm(points[rows, None] - self.points)
+            low, high = basins[rows, 0], basins[rows, 1]
+            ahead = np.mod(np.arange(count) - low[:, None], count)
+            inside = ahead <= (high - low)[:, None]
+            at = np.argmin(np.where(inside, away, np.inf), axis=1)
+            every = np.arange(len(at))
+            for _ in range(count):
+                around = np.stack([at - 1, at, at + 1], axis=1)
+                around = (
+                    np.mod(around, count) if self._edge.closed else np.clip(around, 0, count - 1)
+                )
+                best = np.argmin(away[every[:, None], around], axis=1)
+                if (around[every, best] == at).all():
+                    break
+                at = around[every, best]
+            result[rows] = at
         return result
 
     def _different(self, t: Array, apart: float) -> Array:

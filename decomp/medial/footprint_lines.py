@@ -29,20 +29,19 @@ class FootprintLines:
         uv: (n, 2) its coordinates.
         t: (n,) the parameter of its foot.
         segments: (m, 2) drawn points.
-        rims: (r, 2) those of the segments that are on rims.
+        of_line: for each curve the numbers of its drawn points.
     """
 
     vertex: Ints
     uv: Array
     t: Array
     segments: Ints
-    rims: Ints
+    of_line: tuple[Ints, ...]
 
 
 def drawn_lines(
     points: Array,
     lines: Sequence[Ints],
-    rims: Sequence[bool],
     domain: Domain,
     wells: EdgeWells,
     curve: Curve,
@@ -53,7 +52,6 @@ def drawn_lines(
     Args:
         points: (n, 3) all vertices of the complex.
         lines: polylines of vertices, each with a vertex inside; closed ones repeat the first.
-        rims: whether each is a rim.
         domain: the footprint.
         wells: of the edge.
         curve: of the edge.
@@ -65,17 +63,17 @@ def drawn_lines(
     first = np.concatenate([[0], np.cumsum(count)])
     vertex, t = np.repeat(used, count), np.concatenate(feet)
     uv = domain.to_plane(curve.point(curve.wrapped(t)), points[vertex])
-    base = np.array([p or np.inf for p in domain.period])
+    base = np.array([p or 0.0 for p in domain.period])
 
     def apart(one: Ints, other: Ints) -> Array:
         step = uv[one][:, None] - uv[other]
-        turns = np.where(np.isfinite(base), np.round(step / base), 0.0)
-        return norm(step - np.where(np.isfinite(base), turns * base, 0.0))
+        return norm(step - base * np.round(step / np.where(base > 0, base, np.inf)))
 
     nodes = {int(k) for line in lines if line[0] != line[-1] for k in (line[0], line[-1])}
     segments: list[tuple[int, int]] = []
-    on_rims: list[tuple[int, int]] = []
-    for line, rim in zip(lines, rims, strict=True):
+    of_line = []
+    for line in lines:
+        begin = len(segments)
         for a, b in zip(line[:-1].tolist(), line[1:].tolist(), strict=True):
             one, other = (
                 np.arange(first[k], first[k + 1]) for k in np.searchsorted(used, [a, b]).tolist()
@@ -88,10 +86,6 @@ def drawn_lines(
             if b not in nodes or a in nodes:
                 found |= {(int(one[k]), int(j)) for j, k in zip(other, gaps.argmin(axis=0))}
             segments += sorted(found)
-            on_rims += sorted(found) if rim else []
-    return FootprintLines(vertex, uv, t, _unique(segments), _unique(on_rims))
-
-
-def _unique(pairs: Sequence[tuple[int, int]]) -> Ints:
-    both = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
-    return np.unique(both, axis=0)
+        of_line.append(np.unique(np.array(segments[begin:], dtype=np.int64)))
+    both = np.sort(np.array(segments, dtype=np.int64).reshape(-1, 2), axis=1)
+    return FootprintLines(vertex, uv, t, np.unique(both, axis=0), tuple(of_line))

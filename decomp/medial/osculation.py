@@ -41,6 +41,12 @@ class Osculation:
         """Points of the edge and directions (k, 3) across it."""
         return self._fan.place(spots)
 
+    def tangents(self, spots: Array) -> Array:
+        """Unit tangents (k, 3) of the edge, in the sense of its parameter."""
+        feet = self.place(spots)[0]
+        tangent = cross_direction(self._one, self._other, feet)[0]
+        return tangent * self._sense(feet, tangent)[:, None]
+
     def balls(self, spots: Array) -> tuple[Array, Array, Array, Array]:
         """Feet, directions (k, 3), radii (k,) and centres of curvature (k, 3) in them.
 

@@ -72,6 +72,10 @@ class RimCurve:
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) to their feet on the rim."""
+        return self.nearest(points)[0]
+
+    def nearest(self, points: Array) -> tuple[Array, Array]:
+        """The feet on the rim of points (k, 3), and the edge's unit tangents (k, 3) over them."""
         chord, step = np.diff(self.points, axis=0), np.diff(self.spots, axis=0)
         square = np.maximum(dot(chord, chord), 1e-300)
         middle = (self.points[:-1] + self.points[1:]) / 2
@@ -80,15 +84,15 @@ class RimCurve:
         share = np.clip(share, -1.0, 2.0)
         across = step[:, ::-1] * np.array([-1.0, 1.0])
         across = across / np.maximum(norm(across), 1e-300)[:, None]
-        placed = points
+        placed, spots = points, self.spots[k]
         for _ in range(APPROACHES):
-            spots = self.spots[k] + share[:, None] * step[k]
-            placed = self.spheres.balls(self.spheres.onto(spots, across[k]))[3]
+            spots = self.spheres.onto(self.spots[k] + share[:, None] * step[k], across[k])
+            placed = self.spheres.balls(spots)[3]
             move = dot(points - placed, chord[k]) / square[k]
             share = np.clip(share + move, -1.0, 2.0)
             if float(np.abs(move).max(initial=0.0)) <= 1e-13:
                 break
-        return placed
+        return placed, self.spheres.tangents(spots)
 
 
 class _EdgeRims:

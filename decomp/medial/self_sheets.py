@@ -20,7 +20,8 @@ from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.footprint_lines import FootprintLines, drawn_lines
 from decomp.medial.incidence import Incidence
 from decomp.medial.mirror_plane import MirrorPlane
-from decomp.medial.self_surface import RimSegments, SelfSheetSurface
+from decomp.medial.rims import RimCurve
+from decomp.medial.self_surface import SelfSheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.sheets import COARSE, ROUNDS, CrossingError, SheetPart
 from decomp.sites import SiteIndex
@@ -49,13 +50,13 @@ class SelfSheetMaker:
         self._incidence, self._points, self._add = incidence, points, add
         self._tests = SheetTests(index, incidence)
 
-    def sheets(self, site: int, lines: Sequence[Ints], rims: Sequence[bool]) -> list[SheetPart]:
+    def sheets(self, site: int, lines: Sequence[Ints], rims: Sequence[RimCurve | None]) -> list[SheetPart]:
         """The sheets of one edge with itself.
 
         Args:
             site: the edge.
             lines: polylines of vertices that border them.
-            rims: whether each is a rim.
+            rims: what those of them are on that are rims.
 
         Raises:
             CrossingError: the polylines must be finer.
@@ -79,7 +80,7 @@ class _EdgeSheets:
         points: Array,
         site: int,
         lines: Sequence[Ints],
-        rims: Sequence[bool],
+        rims: Sequence[RimCurve | None],
     ) -> None:
         boundary = incidence.boundary
         self._incidence, self._tests, self._site = incidence, tests, site
@@ -90,8 +91,9 @@ class _EdgeSheets:
         reach = float(np.median(norm(used - incidence.feet((site,), used)[:, 0])))
         self._domain: Domain = domain_of(boundary, incidence.sites[site], reach=reach)
         self._drawn: FootprintLines = drawn_lines(
-            points, lines, rims, self._domain, self._wells, self._edge.curve, self._size
+            points, lines, self._domain, self._wells, self._edge.curve, self._size
         )
+        self._rims = rims
         self._uv, self._points = self._drawn.uv, points[self._drawn.vertex]
 
     def parts(self, add: Callable[[Array], int]) -> list[SheetPart]:
@@ -235,18 +237,16 @@ class _EdgeSheets:
         """The surface of the sheet that triangles with given numbers are drawn of."""
         feet, balls = self._balls(found, rows)
         good = balls.site == self._site
-        curve, drawn = self._edge.curve, self._drawn
+        curve = self._edge.curve
         t = np.stack([curve.parameter(feet), curve.parameter(balls.foot)], axis=1)[good]
-        rims = drawn.rims[np.isin(drawn.rims, found.triangles[rows]).all(axis=1)]
-        tangents = curve.derivative(curve.wrapped(drawn.t[rims]))
-        tangents = tangents / norm(tangents)[..., None]
+        inside = np.unique(found.triangles[rows])
+        rims = tuple(
+            rim
+            for rim, on in zip(self._rims, self._drawn.of_line, strict=True)
+            if rim is not None and np.isin(on, inside).all()
+        )
         return SelfSheetSurface(
-            self._incidence,
-            self._site,
-            self._wells,
-            balls.centre[good],
-            t,
-            RimSegments(self._points[rims], tangents),
+            self._incidence, self._site, self._wells, balls.centre[good], t, rims
         )
 
 

@@ -15,41 +15,15 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.errors import GeometryError
 from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.incidence import Incidence
-from decomp.tracing.equidistance import equidistant
+from decomp.medial.rims import RimCurve
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, dot, norm, place
 
-DEEP = 0.1
-"""Places of the edge that are farther than the nearest by this part of the distance are others."""
 MERGED = 1e-6
 """Feet nearer to each other than this part of the size have run together."""
-MOVED = 0.5
-"""A point that moves by more than this part of the distance has left the sheet."""
-
-
-@dataclass(frozen=True, eq=False)
-class RimSegments:
-    """Chords of the rims of a sheet.
-
-    Args:
-        points: (k, 2, 3) their ends.
-        tangents: (k, 2, 3) the edge's unit tangents over them, in the sense of its parameter.
-    """
-
-    points: Array
-    tangents: Array
-
-    def nearest(self, points: Array) -> tuple[Array, Array]:
-        """The nearest points of the chords (k, 3), and the tangents (k, 3) over them."""
-        start, chord = self.points[:, 0], self.points[:, 1] - self.points[:, 0]
-        square = np.maximum(dot(chord, chord), 1e-300)
-        share = np.clip(dot(points[:, None] - start, chord) / square, 0.0, 1.0)
-        at = start + share[..., None] * chord
-        row = np.argmin(norm(points[:, None] - at), axis=1)
-        every = np.arange(len(points))
-        part = share[every, row][:, None]
-        ways = (1 - part) * self.tangents[row, 0] + part * self.tangents[row, 1]
-        return at[every, row], ways / norm(ways)[:, None]
+STEPS = 60
+REST, CONVERGED = 4e-16, 1e-12
+"""Differences of distances, as parts of the size, at which it is stopped, and that are good."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +44,7 @@ class SelfSheetSurface:
     wells: EdgeWells
     points: Array
     feet: Array
-    rims: RimSegments
+    rims: tuple[RimCurve, ...]
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) straight onto the surface.
@@ -88,60 +62,88 @@ class SelfSheetSurface:
         return placed
 
     def try_place(self, points: Array) -> tuple[Array, Bools]:
-        """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
-        it, moved = self.incidence, np.array(points)
-        feet, apart, _ = self._feet(points)
-        good = np.ones(len(points), dtype=np.bool_)
-        rows = np.flatnonzero(apart)
-        if len(rows):
-            which: Ints = np.full((len(rows), 2), self.site, dtype=np.int64)
-            found = equidistant(it.boundary, it.sites, which, points[rows], feet[rows])
-            moved[rows] = found.points
-            near = norm(found.points - points[rows]) <= MOVED * found.radius
-            good[rows] = found.converged & near
-        rows = np.flatnonzero(~apart)
-        if len(rows) and len(self.rims.points):
-            on, ways = self.rims.nearest(points[rows])
-            moved[rows] -= dot(points[rows] - on, ways)[:, None] * ways
-        elif len(rows):
-            good[rows] = False
+        """Points moved onto the surface (k, 3), and whether that succeeded (k,).
+
+        Newton's method on the difference of both distances; close to a reflexive locus feet move
+        fast, so that steps can lead too far: they are halved.
+        """
+        moved, good = np.array(points), np.zeros(len(points), dtype=np.bool_)
+        known = self._tree.query(points)[1]
+        rows = np.arange(len(points))
+        best, scale = np.full(len(points), np.inf), np.ones(len(points))
+        step, beside = np.zeros_like(moved), np.zeros(len(points), dtype=np.bool_)
+        for _ in range(STEPS):
+            tried = moved[rows] + scale[rows, None] * step[rows]
+            feet, apart = self._feet(tried, known[rows])
+            away = tried[:, None] - feet
+            distance = norm(away)
+            gap = distance[:, 0] - distance[:, 1]
+            better = apart & (np.abs(gap) < best[rows])
+            beside[rows[~apart & ~np.isfinite(best[rows])]] = True
+            kept = rows[better]
+            gradient = away[better, 0] / distance[better, :1] - away[better, 1] / distance[better, 1:]
+            square = np.maximum(dot(gradient, gradient), 1e-300)
+            moved[kept], best[kept] = tried[better], np.abs(gap[better])
+            step[kept] = -(gap[better] / square)[:, None] * gradient
+            scale[kept] = 1.0
+            scale[rows[~better]] /= 4
+            done = (best <= REST * self._size) | (norm(step) * scale <= REST * self._size)
+            rows = rows[~done[rows] & ~beside[rows]]
+            if not len(rows):
+                break
+        good = best <= CONVERGED * self._size
+        alone = np.flatnonzero(beside)
+        if len(alone) and len(self.rims):
+            on, ways = self._on_rims(points[alone])
+            moved[alone] -= dot(points[alone] - on, ways)[:, None] * ways
+            good[alone] = True
         return moved, good
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3), from the first foot to the second."""
-        feet, apart, sense = self._feet(points)
+        known = self._tree.query(points)[1]
+        feet, apart = self._feet(points, known)
         across = feet[:, 1] - feet[:, 0]
         rows = np.flatnonzero(~apart)
         if len(rows):
-            if not len(self.rims.points):
+            if not len(self.rims):
                 raise GeometryError(f"the sheet at {place(points[rows[0]])} has no normal")
-            across[rows] = sense[rows, None] * self.rims.nearest(points[rows])[1]
+            sense = np.sign(self.wells.gap(self.feet[known[rows], 0], self.feet[known[rows], 1]))
+            across[rows] = sense[:, None] * self._on_rims(points[rows])[1]
         return np.asarray(across / norm(across)[:, None])
 
-    def _feet(self, points: Array) -> tuple[Array, Bools, Array]:
-        """Both feet (k, 2, 3) of points, whether they are two (k,), and the way between them."""
-        known = self._tree.query(points)[1]
-        wanted = self.feet[known]
-        reach = norm(points[:, None] - self.wells.points[::16]).min(axis=1)
-        found = self.wells.around(points, DEEP * reach)
-        first = np.searchsorted(found.row, np.arange(len(points)))
-        count = np.bincount(found.row, minlength=len(points))
-        chosen = np.empty((len(points), 2), dtype=np.int64)
-        for side in (0, 1):
-            gap = np.abs(self.wells.gap(wanted[found.row, side], self.wells.t[found.sample]))
-            order = np.lexsort((gap, found.row))
-            chosen[:, side] = found.sample[order[np.minimum(first, len(order) - 1)]]
-        apart = (chosen[:, 0] != chosen[:, 1]) & (count > 0)
+    def _on_rims(self, points: Array) -> tuple[Array, Array]:
+        """The nearest points (k, 3) of the rims, and the edge's unit tangents over them."""
+        gaps = [norm(points[:, None] - rim.points).min(axis=1) for rim in self.rims]
+        which = np.argmin(gaps, axis=0)
+        on, ways = np.empty_like(points), np.empty_like(points)
+        for k in np.unique(which):
+            rows = which == k
+            on[rows], ways[rows] = self.rims[k].nearest(points[rows])
+        return on, ways
+
+    def _feet(self, points: Array, known: Ints) -> tuple[Array, Bools]:
+        """Both feet (k, 2, 3) of points, from those of known ones (k,), and whether they are two."""
+        basins = self._basins[known]
+        chosen = np.stack([self.wells.deepest(points, basins[:, side]) for side in (0, 1)], axis=1)
         starts = self.wells.points[chosen]
         which: Ints = np.full(2 * len(points), self.site, dtype=np.int64)
         it = self.incidence
-        field = site_fields(
-            it.boundary, it.sites, which, np.repeat(points, 2, axis=0), starts.reshape(-1, 3)
-        )
+        flat = starts.reshape(-1, 3)
+        field = site_fields(it.boundary, it.sites, which, np.repeat(points, 2, axis=0), flat)
         feet = field.foot.reshape(-1, 2, 3)
-        apart &= norm(feet[:, 0] - feet[:, 1]) > MERGED * it.boundary.diagonal
-        sense = np.sign(self.wells.gap(wanted[:, 0], wanted[:, 1]))
-        return feet, apart, sense
+        apart = (chosen[:, 0] != chosen[:, 1]) & (norm(feet[:, 0] - feet[:, 1]) > MERGED * self._size)
+        return feet, apart
+
+    @cached_property
+    def _basins(self) -> Ints:
+        """For each known point the ranges (k, 2, 2) of samples in which its feet are nearest."""
+        both = [self.wells.basins(self.points, self.feet[:, side]) for side in (0, 1)]
+        return np.stack(both, axis=1)
+
+    @property
+    def _size(self) -> float:
+        return self.incidence.boundary.diagonal
 
     @cached_property
     def _tree(self) -> cKDTree:
