@@ -23,7 +23,9 @@ STEP = 1e-2
 """Step of the differences, as a part of the least radius of curvature along the edge."""
 LONGEST = 1e-3
 """The longest step, as a part of the region's size."""
-ROUNDS = 60
+ROUNDS = 20
+DELTA = 1e-4
+AT_REST = 1e-14
 
 
 class Osculation:
@@ -44,8 +46,7 @@ class Osculation:
     def tangents(self, spots: Array) -> Array:
         """Unit tangents (k, 3) of the edge, in the sense of its parameter."""
         feet = self.place(spots)[0]
-        tangent = cross_direction(self._one, self._other, feet)[0]
-        return tangent * self._sense(feet, tangent)[:, None]
+        return np.asarray(self._sense * cross_direction(self._one, self._other, feet)[0])
 
     def balls(self, spots: Array) -> tuple[Array, Array, Array, Array]:
         """Feet, directions (k, 3), radii (k,) and centres of curvature (k, 3) in them.
@@ -66,16 +67,24 @@ class Osculation:
     def onto(self, spots: Array, across: Array) -> Array:
         """Spots (k, 2) moved along directions (k, 2) to where a sphere osculates, by secants."""
         reach = np.zeros(len(spots))
-        ahead = np.full(len(spots), 1e-4)
+        slope = self.slope(spots, across)
         value = self.miss(spots)
         for _ in range(ROUNDS):
-            new = self.miss(spots + ahead[:, None] * across)
-            flat = new == value
-            step = np.where(flat, 0.0, -new * (ahead - reach) / np.where(flat, 1.0, new - value))
-            reach, value, ahead = ahead, new, ahead + np.clip(step, -0.1, 0.1)
-            if float(np.abs(ahead - reach).max(initial=0.0)) <= 1e-15:
+            step = np.clip(-value / slope, -0.1, 0.1)
+            reach = reach + step
+            if float(np.abs(step).max(initial=0.0)) <= AT_REST:
                 break
-        return np.asarray(spots + ahead[:, None] * across)
+            before, value = value, self.miss(spots + reach[:, None] * across)
+            safe = np.abs(step) > AT_REST
+            secant = (value - before) / np.where(safe, step, 1.0)
+            slope = np.where(safe & (secant * slope > 0), secant, slope)
+        return np.asarray(spots + reach[:, None] * across)
+
+    def slope(self, spots: Array, across: Array) -> Array:
+        """How K' . d changes along directions (k, 2), by differences."""
+        ahead, behind = (self.miss(spots + sign * DELTA * across) for sign in (1, -1))
+        found = (ahead - behind) / (2 * DELTA)
+        return np.where(found == 0, 1e-300, found)
 
     @cached_property
     def _scale(self) -> float:
@@ -91,17 +100,19 @@ class Osculation:
         """
         step = min(STEP * self._scale, LONGEST * self._size)
         tangent = cross_direction(self._one, self._other, feet)[0]
-        tangent = tangent * self._sense(feet, tangent)[:, None]
         total = np.zeros_like(feet)
         for weight, k in zip(STENCIL, STEPS, strict=True):
             ahead = onto_pair(self._one, self._other, feet + k * step * tangent, tangent)
             total += weight * self._curvature(ahead)
         return total / step
 
-    def _sense(self, feet: Array, tangent: Array) -> Array:
-        curve = self.edge.curve
+    @cached_property
+    def _sense(self) -> float:
+        """Whether the product of the carriers' normals runs with the edge's parameter: 1 or -1."""
+        middle = np.array([[0.5, 0.5]])
+        curve, feet = self.edge.curve, self.place(middle)[0]
         along = curve.derivative(curve.parameter(feet))
-        return np.asarray(np.where(dot(along, tangent) < 0, -1.0, 1.0))
+        return float(np.sign(dot(along, cross_direction(self._one, self._other, feet)[0])[0]))
 
     def _curvature(self, points: Array) -> Array:
         """The curvature vector (k, 3) at points, from the normal curvatures of the carriers."""

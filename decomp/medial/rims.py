@@ -27,7 +27,7 @@ from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Bools, dot, nearest_rows, norm, place
+from decomp.vectors import Array, Bools, dot, norm, place
 
 ALONG, ACROSS = 256, 32
 """Cells along and across an edge's footprint in which rims are looked for."""
@@ -37,9 +37,12 @@ EMPTY = 1e-10
 """A ball is empty if the boundary enters it by less than this part of the size."""
 HALVINGS = 12
 SHORTEST = 1e-9
+CLOSE = 0.5
+"""Spots nearer to each other than this part of a cell's height are one too many."""
 NEAR = 0.02
 """A foot nearer to the first one than this part of the radius is about to run together with it."""
-APPROACHES = 12
+APPROACHES = 30
+AT_REST = 1e-13
 
 
 def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
@@ -78,21 +81,35 @@ class RimCurve:
         """The feet on the rim of points (k, 3), and the edge's unit tangents (k, 3) over them."""
         chord, step = np.diff(self.points, axis=0), np.diff(self.spots, axis=0)
         square = np.maximum(dot(chord, chord), 1e-300)
-        middle = (self.points[:-1] + self.points[1:]) / 2
-        k = nearest_rows(middle, points)
-        share = dot(points - self.points[k], chord[k]) / square[k]
-        share = np.clip(share, -1.0, 2.0)
+        every = np.clip(dot(points[:, None] - self.points[:-1], chord) / square, 0.0, 1.0)
+        off_chord = norm(points[:, None] - self.points[:-1] - every[..., None] * chord)
+        k = np.argmin(off_chord, axis=1)
+        share = every[np.arange(len(points)), k]
         across = step[:, ::-1] * np.array([-1.0, 1.0])
         across = across / np.maximum(norm(across), 1e-300)[:, None]
+        # two equations, one for the place along the chord and one across: close to independent
+        off = np.zeros(len(points))
+        slope = self.spheres.slope(self.spots[k] + share[:, None] * step[k], across[k])
         placed, spots = points, self.spots[k]
         for _ in range(APPROACHES):
-            spots = self.spheres.onto(self.spots[k] + share[:, None] * step[k], across[k])
+            spots = self.spots[k] + share[:, None] * step[k] + off[:, None] * across[k]
             placed = self.spheres.balls(spots)[3]
             move = dot(points - placed, chord[k]) / square[k]
-            share = np.clip(share + move, -1.0, 2.0)
-            if float(np.abs(move).max(initial=0.0)) <= 1e-13:
+            aside = np.clip(-self.spheres.miss(spots) / slope, -0.1, 0.1)
+            share, off = np.clip(share + move, -1.0, 2.0), off + aside
+            if max(np.abs(move).max(initial=0.0), np.abs(aside).max(initial=0.0)) <= AT_REST:
                 break
         return placed, self.spheres.tangents(spots)
+
+
+def _spread(spots: Array) -> list[int]:
+    """The first and last of spots (k, 2), and those between that are not close together."""
+    kept = [0]
+    for k in range(1, len(spots) - 1):
+        near = min(float(norm(spots[k] - spots[j])) for j in (kept[-1], len(spots) - 1))
+        if near > CLOSE / ACROSS:
+            kept.append(k)
+    return [*kept, len(spots) - 1]
 
 
 class _EdgeRims:
@@ -201,10 +218,8 @@ class _EdgeRims:
 
     def _piece(self, spots: Array, closed: bool) -> CurvePiece | None:
         """A rim over spots (k, 2) in order."""
-        steps = norm(np.diff(spots, axis=0))
-        keep = np.concatenate([[True], steps > SHORTEST])
-        spots = spots[keep]
-        if len(spots) < 2:
+        spots = spots[_spread(spots)]
+        if float(norm(spots[-1] - spots[0])) <= SHORTEST:
             return None
         while len(spots) < 5:
             spots = self._denser(spots)

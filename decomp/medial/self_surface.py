@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
 from decomp.medial.edge_wells import EdgeWells
@@ -22,6 +21,9 @@ from decomp.vectors import Array, Bools, Ints, dot, norm, place
 MERGED = 1e-6
 """Feet nearer to each other than this part of the size have run together."""
 STEPS = 60
+ASIDE = 0.1
+"""How much a way from a known point counts beside the distance from its feet."""
+BLOCK = 1024
 REST, CONVERGED = 4e-16, 1e-12
 """Differences of distances, as parts of the size, at which it is stopped, and that are good."""
 
@@ -68,7 +70,7 @@ class SelfSheetSurface:
         fast, so that steps can lead too far: they are halved.
         """
         moved, good = np.array(points), np.zeros(len(points), dtype=np.bool_)
-        known = self._tree.query(points)[1]
+        known = self._known(points)
         rows = np.arange(len(points))
         best, scale = np.full(len(points), np.inf), np.ones(len(points))
         step, beside = np.zeros_like(moved), np.zeros(len(points), dtype=np.bool_)
@@ -101,7 +103,7 @@ class SelfSheetSurface:
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3), from the first foot to the second."""
-        known = self._tree.query(points)[1]
+        known = self._known(points)
         feet, apart = self._feet(points, known)
         across = feet[:, 1] - feet[:, 0]
         rows = np.flatnonzero(~apart)
@@ -135,6 +137,21 @@ class SelfSheetSurface:
         apart = (chosen[:, 0] != chosen[:, 1]) & (norm(feet[:, 0] - feet[:, 1]) > MERGED * self._size)
         return feet, apart
 
+    def _known(self, points: Array) -> Ints:
+        """The known point (k,) whose feet are nearest to each of points.
+
+        The nearest known point itself does not serve where two parts of the sheet are close.
+        """
+        curve = self.incidence.boundary.edges[self.incidence.sites[self.site].index].curve
+        feet = curve.point(curve.wrapped(self.feet))
+        found = np.empty(len(points), dtype=np.int64)
+        for start in range(0, len(points), BLOCK):
+            block = points[start : start + BLOCK, None]
+            reach = np.maximum(norm(block - feet[:, 0]), norm(block - feet[:, 1]))
+            aside = ASIDE * norm(block - self.points)
+            found[start : start + BLOCK] = np.argmin(reach + aside, axis=1)
+        return found
+
     @cached_property
     def _basins(self) -> Ints:
         """For each known point the ranges (k, 2, 2) of samples in which its feet are nearest."""
@@ -144,7 +161,3 @@ class SelfSheetSurface:
     @property
     def _size(self) -> float:
         return self.incidence.boundary.diagonal
-
-    @cached_property
-    def _tree(self) -> cKDTree:
-        return cKDTree(self.points)
