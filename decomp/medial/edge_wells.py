@@ -7,13 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Edge
-from decomp.vectors import Array, Ints, dot, norm
+from decomp.vectors import Array, Bools, Ints, dot, norm
 
 SAMPLES = 1024
 """Places along an edge that are closer together than two feet of one ball have to be."""
 HALVINGS = 40
 CLOSE = 3
 """Samples beside a place that is nearest up to rounding or sampling."""
+DEEP = 0.1
+"""Places of the edge that are farther than the nearest by this part of the distance do not count."""
 BLOCK = 512
 
 
@@ -38,6 +40,7 @@ class EdgeWells:
     Attributes:
         t: parameters (s,) of the samples.
         points: the samples (s, 3).
+        apart: a little more than the distance of neighbouring samples.
     """
 
     def __init__(self, edge: Edge) -> None:
@@ -45,6 +48,7 @@ class EdgeWells:
         count = SAMPLES if edge.closed else SAMPLES + 1
         self.t: Array = edge.start + (edge.end - edge.start) * np.arange(count) / SAMPLES
         self.points: Array = edge.curve.point(edge.curve.wrapped(self.t))
+        self.apart = 1.5 * float(norm(np.diff(self.points, axis=0)).max())
 
     def around(self, points: Array, within: Array) -> Wells:
         """The wells of points (k, 3) that are at most so much (k,) deeper than the deepest."""
@@ -52,11 +56,8 @@ class EdgeWells:
         for start in range(0, len(points), BLOCK):
             block = points[start : start + BLOCK]
             away = norm(block[:, None] - self.points)
-            before, after = np.roll(away, 1, axis=1), np.roll(away, -1, axis=1)
-            if not self._edge.closed:
-                before[:, 0], after[:, -1] = np.inf, np.inf
             least = away.min(axis=1) + within[start : start + BLOCK]
-            row, sample = np.nonzero((away <= before) & (away < after) & (away <= least[:, None]))
+            row, sample = np.nonzero(self._bottoms(away) & (away <= least[:, None]))
             rows.append(row + start)
             samples.append(sample)
             distances.append(away[row, sample])
@@ -67,29 +68,45 @@ class EdgeWells:
             np.concatenate([np.empty(0), *distances]),
         )
 
+    def _bottoms(self, away: Array) -> Bools:
+        """Where distances (k, s) from the samples are less than at their neighbours."""
+        before, after = np.roll(away, 1, axis=1), np.roll(away, -1, axis=1)
+        if not self._edge.closed:
+            before[:, 0], after[:, -1] = np.inf, np.inf
+        return np.asarray((away <= before) & (away < after))
+
+    @property
+    def spacing(self) -> float:
+        """Of the samples' parameters."""
+        return float(self.t[1] - self.t[0])
+
+    def bottom(self, points: Array, sample: Ints) -> Array:
+        """Parameters (k,) of the places nearest to points (k, 3) beside samples (k,): by halving."""
+        low, high = self.t[sample] - self.spacing, self.t[sample] + self.spacing
+        if not self._edge.closed:
+            low, high = np.maximum(low, self.t[0]), np.minimum(high, self.t[-1])
+        curve = self._edge.curve
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            t = curve.wrapped(middle)
+            ahead = dot(points - curve.point(t), curve.derivative(t)) > 0
+            low, high = np.where(ahead, middle, low), np.where(ahead, high, middle)
+        return np.asarray((low + high) / 2)
+
     def feet(self, points: Array, slack: float) -> list[Array]:
         """For each of points (k, 3) the parameters of all its nearest places on the edge.
 
         Distances that differ by less than `slack` count as equal.
         """
-        spacing = float(self.t[1] - self.t[0])
-        found = self.around(points, np.full(len(points), spacing))
-        low, high = self.t[found.sample] - spacing, self.t[found.sample] + spacing
-        if not self._edge.closed:
-            low, high = np.maximum(low, self.t[0]), np.minimum(high, self.t[-1])
+        found = self.around(points, np.full(len(points), self.spacing))
         at, curve = points[found.row], self._edge.curve
-        for _ in range(HALVINGS):
-            middle = (low + high) / 2
-            t = curve.wrapped(middle)
-            ahead = dot(at - curve.point(t), curve.derivative(t)) > 0
-            low, high = np.where(ahead, middle, low), np.where(ahead, high, middle)
-        t = (low + high) / 2
+        t = self.bottom(at, found.sample)
         distance = norm(curve.point(curve.wrapped(t)) - at)
         result = []
         for k in range(len(points)):
             own = np.flatnonzero(found.row == k)
             near = own[distance[own] <= distance[own].min() + slack]
-            result.append(self._different(np.sort(t[near]), 2 * spacing))
+            result.append(self._different(np.sort(t[near]), 2 * self.spacing))
         return result
 
     def basins(self, points: Array, t: Array) -> Ints:
@@ -124,6 +141,10 @@ class EdgeWells:
             low, high = basins[rows, 0], basins[rows, 1]
             ahead = np.mod(np.arange(count) - low[:, None], count)
             inside = ahead <= (high - low)[:, None]
+            deep = away <= (1 + DEEP) * away.min(axis=1)[:, None]
+            lowest = inside & deep & self._bottoms(away)
+            # a place at the basin's end counts only where the distance has no minimum inside
+            inside = np.where(lowest.any(axis=1)[:, None], lowest, inside)
             at = np.argmin(np.where(inside, away, np.inf), axis=1)
             every = np.arange(len(at))
             for _ in range(count):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
@@ -72,6 +73,11 @@ class RimCurve:
     spheres: Osculation
     spots: Array
     points: Array
+
+    @cached_property
+    def feet(self) -> Array:
+        """The edge's points (k, 3) over the known spots."""
+        return self.spheres.place(self.spots)[0]
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) to their feet on the rim."""

@@ -96,7 +96,7 @@ class SelfSheetSurface:
         good = best <= CONVERGED * self._size
         alone = np.flatnonzero(beside)
         if len(alone) and len(self.rims):
-            on, ways = self._on_rims(points[alone])
+            on, ways = self._on_rims(points[alone], self._feet(points[alone], known[alone])[0][:, 0])
             moved[alone] -= dot(points[alone] - on, ways)[:, None] * ways
             good[alone] = True
         return moved, good
@@ -111,12 +111,18 @@ class SelfSheetSurface:
             if not len(self.rims):
                 raise GeometryError(f"the sheet at {place(points[rows[0]])} has no normal")
             sense = np.sign(self.wells.gap(self.feet[known[rows], 0], self.feet[known[rows], 1]))
-            across[rows] = sense[:, None] * self._on_rims(points[rows])[1]
+            across[rows] = sense[:, None] * self._on_rims(points[rows], feet[rows, 0])[1]
         return np.asarray(across / norm(across)[:, None])
 
-    def _on_rims(self, points: Array) -> tuple[Array, Array]:
-        """The nearest points (k, 3) of the rims, and the edge's unit tangents over them."""
-        gaps = [norm(points[:, None] - rim.points).min(axis=1) for rim in self.rims]
+    def _on_rims(self, points: Array, feet: Array) -> tuple[Array, Array]:
+        """The nearest points (k, 3) of the rims, and the edge's unit tangents over them.
+
+        Rims that are close to each other are told apart by the feet (k, 3) of the points.
+        """
+        gaps = [
+            (norm(points[:, None] - rim.points) + norm(feet[:, None] - rim.feet)).min(axis=1)
+            for rim in self.rims
+        ]
         which = np.argmin(gaps, axis=0)
         on, ways = np.empty_like(points), np.empty_like(points)
         for k in np.unique(which):
@@ -131,9 +137,15 @@ class SelfSheetSurface:
         starts = self.wells.points[chosen]
         which: Ints = np.full(2 * len(points), self.site, dtype=np.int64)
         it = self.incidence
-        flat = starts.reshape(-1, 3)
-        field = site_fields(it.boundary, it.sites, which, np.repeat(points, 2, axis=0), flat)
-        feet = field.foot.reshape(-1, 2, 3)
+        flat, twice = starts.reshape(-1, 3), np.repeat(points, 2, axis=0)
+        feet = site_fields(it.boundary, it.sites, which, twice, flat).foot
+        # where the edge keeps its distance over a long way Newton's method leaves the place
+        lost = np.flatnonzero(norm(feet - flat) > self.wells.apart)
+        if len(lost):
+            curve = it.boundary.edges[it.sites[self.site].index].curve
+            bottom = self.wells.bottom(twice[lost], chosen.reshape(-1)[lost])
+            feet[lost] = curve.point(curve.wrapped(bottom))
+        feet = feet.reshape(-1, 2, 3)
         apart = (chosen[:, 0] != chosen[:, 1]) & (norm(feet[:, 0] - feet[:, 1]) > MERGED * self._size)
         return feet, apart
 
