@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from decomp.complex.domains import Domain, domain_of
+from decomp.complex.domain_base import Domain
+from decomp.complex.domain_edges import even_strip
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import SparseError, Triangulation, crossings, triangulate
 from decomp.errors import GeometryError
@@ -89,7 +90,7 @@ class _EdgeSheets:
         self._wells = EdgeWells(self._edge)
         used = points[np.unique(np.concatenate(list(lines)))]
         reach = float(np.median(norm(used - incidence.feet((site,), used)[:, 0])))
-        self._domain: Domain = domain_of(boundary, incidence.sites[site], reach=reach)
+        self._domain: Domain = even_strip(boundary, incidence.sites[site].index, reach)
         self._drawn: FootprintLines = drawn_lines(
             points, lines, self._domain, self._wells, self._edge.curve, self._size
         )

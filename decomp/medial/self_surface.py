@@ -74,6 +74,7 @@ class SelfSheetSurface:
         rows = np.arange(len(points))
         best, scale = np.full(len(points), np.inf), np.ones(len(points))
         step, beside = np.zeros_like(moved), np.zeros(len(points), dtype=np.bool_)
+        merged = np.zeros(len(points), dtype=np.bool_)
         for _ in range(STEPS):
             tried = moved[rows] + scale[rows, None] * step[rows]
             feet, apart = self._feet(tried, known[rows])
@@ -82,6 +83,7 @@ class SelfSheetSurface:
             gap = distance[:, 0] - distance[:, 1]
             better = apart & (np.abs(gap) < best[rows])
             beside[rows[~apart & ~np.isfinite(best[rows])]] = True
+            merged[rows[~apart]] = True
             kept = rows[better]
             gradient = away[better, 0] / distance[better, :1] - away[better, 1] / distance[better, 1:]
             square = np.maximum(dot(gradient, gradient), 1e-300)
@@ -94,10 +96,11 @@ class SelfSheetSurface:
             if not len(rows):
                 break
         good = best <= CONVERGED * self._size
-        alone = np.flatnonzero(beside)
+        alone = np.flatnonzero(beside | (merged & ~good))
         if len(alone) and len(self.rims):
             on, ways = self._on_rims(points[alone], self._feet(points[alone], known[alone])[0][:, 0])
-            moved[alone] -= dot(points[alone] - on, ways)[:, None] * ways
+            aside = dot(points[alone] - on, ways)[:, None]
+            moved[alone] = points[alone] - aside * ways
             good[alone] = True
         return moved, good
 
