@@ -34,6 +34,9 @@ FLAT = 1e-9
 TESTS = 5
 """Triangles of each component whose far feet are asked for."""
 
+SPREAD = np.array([[1, 1, 1], [4, 1, 1], [1, 4, 1], [1, 1, 4]]) / np.array([[3], [6], [6], [6]])
+"""Barycentric coordinates (4, 3) of the places in triangles where balls are made known."""
+
 
 class SelfSheetMaker:
     """Triangulates the sheets of edges with themselves over given vertices.
@@ -236,7 +239,9 @@ class _EdgeSheets:
 
     def _surface(self, found: Triangulation, rows: Ints) -> SelfSheetSurface:
         """The surface of the sheet that triangles with given numbers are drawn of."""
-        feet, balls = self._balls(found, rows)
+        spots = np.einsum("ij,tjk->tik", SPREAD, found.corners[rows]).reshape(-1, 2)
+        feet, inward = self._domain.lift(spots)
+        balls = self._tests.balls(feet, inward)
         good = balls.site == self._site
         curve = self._edge.curve
         t = np.stack([curve.parameter(feet), curve.parameter(balls.foot)], axis=1)[good]

@@ -21,7 +21,7 @@ from decomp.vectors import Array, Bools, Ints, dot, norm, place
 MERGED = 1e-6
 """Feet nearer to each other than this part of the size have run together."""
 STEPS = 60
-ASIDE = 0.1
+ASIDE = 1.0
 """How much a way from a known point counts beside the distance from its feet."""
 BLOCK = 1024
 REST, CONVERGED = 4e-16, 1e-12
@@ -64,45 +64,50 @@ class SelfSheetSurface:
         return placed
 
     def try_place(self, points: Array) -> tuple[Array, Bools]:
-        """Points moved onto the surface (k, 3), and whether that succeeded (k,).
+        """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
+        moved, good, merged = self._balanced(points)
+        alone = np.flatnonzero(~good & merged)
+        if len(alone) and len(self.rims):
+            feet = self._feet(points[alone], self._known(points[alone]))[0][:, 0]
+            on, ways = self._on_rims(points[alone], feet)
+            moved[alone] = points[alone] - dot(points[alone] - on, ways)[:, None] * ways
+            good[alone] = True
+            # off the sheet, a point can have one foot though it is not beyond the rim
+            again, found, _ = self._balanced(moved[alone])
+            moved[alone[found]] = again[found]
+        return moved, good
+
+    def _balanced(self, points: Array) -> tuple[Array, Bools, Bools]:
+        """Points moved to where both feet are as far, whether they are, and whether feet merged.
 
         Newton's method on the difference of both distances; close to a reflexive locus feet move
-        fast, so that steps can lead too far: they are halved.
+        fast, so that steps can lead too far: they are shortened.
         """
-        moved, good = np.array(points), np.zeros(len(points), dtype=np.bool_)
-        known = self._known(points)
-        rows = np.arange(len(points))
-        best, scale = np.full(len(points), np.inf), np.ones(len(points))
-        step, beside = np.zeros_like(moved), np.zeros(len(points), dtype=np.bool_)
-        merged = np.zeros(len(points), dtype=np.bool_)
+        count = len(points)
+        moved, known, rows = np.array(points), self._known(points), np.arange(count)
+        best, scale, step = np.full(count, np.inf), np.ones(count), np.zeros_like(moved)
+        merged = np.zeros(count, dtype=np.bool_)
         for _ in range(STEPS):
             tried = moved[rows] + scale[rows, None] * step[rows]
             feet, apart = self._feet(tried, known[rows])
             away = tried[:, None] - feet
-            distance = norm(away)
+            distance = np.maximum(norm(away), 1e-300)
             gap = distance[:, 0] - distance[:, 1]
             better = apart & (np.abs(gap) < best[rows])
-            beside[rows[~apart & ~np.isfinite(best[rows])]] = True
             merged[rows[~apart]] = True
             kept = rows[better]
-            gradient = away[better, 0] / distance[better, :1] - away[better, 1] / distance[better, 1:]
+            ways = away[better] / distance[better][..., None]
+            gradient = ways[:, 0] - ways[:, 1]
             square = np.maximum(dot(gradient, gradient), 1e-300)
             moved[kept], best[kept] = tried[better], np.abs(gap[better])
             step[kept] = -(gap[better] / square)[:, None] * gradient
             scale[kept] = 1.0
             scale[rows[~better]] /= 4
             done = (best <= REST * self._size) | (norm(step) * scale <= REST * self._size)
-            rows = rows[~done[rows] & ~beside[rows]]
+            rows = rows[~done[rows]]
             if not len(rows):
                 break
-        good = best <= CONVERGED * self._size
-        alone = np.flatnonzero(beside | (merged & ~good))
-        if len(alone) and len(self.rims):
-            on, ways = self._on_rims(points[alone], self._feet(points[alone], known[alone])[0][:, 0])
-            aside = dot(points[alone] - on, ways)[:, None]
-            moved[alone] = points[alone] - aside * ways
-            good[alone] = True
-        return moved, good
+        return moved, np.asarray(best <= CONVERGED * self._size), merged
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3), from the first foot to the second."""
