@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline  # type: ignore[import-untyped]
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from decomp.complex.model import LineKind
@@ -42,8 +43,11 @@ CLOSE = 0.5
 """Spots nearer to each other than this part of a cell's height are one too many."""
 NEAR = 0.02
 """A foot nearer to the first one than this part of the radius is about to run together with it."""
-APPROACHES = 30
-AT_REST = 1e-13
+APPROACHES = 4
+CORRECTIONS = 12
+AT_REST = 1e-12
+KNOWN = 65
+"""Spots of a rim that are known at least."""
 
 
 def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
@@ -64,9 +68,11 @@ def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
 class RimCurve:
     """The centres of an edge's osculating spheres along a part of its footprint.
 
+    Between the known spots others are interpolated by a spline and then made exact.
+
     Args:
         spheres: of the edge.
-        spots: known spots (k, 2) in order.
+        spots: known spots (k, 2) in order, at least 6.
         points: the centres (k, 3) over them.
     """
 
@@ -81,31 +87,53 @@ class RimCurve:
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) to their feet on the rim."""
-        return self.nearest(points)[0]
+        along, exact = self._along(points), points
+        for _ in range(CORRECTIONS):
+            spots, step = self._spline(along)[:, :2], self._spline(along, 1)
+            across = step[:, 1::-1] * np.array([-1.0, 1.0])
+            across = across / np.maximum(norm(across), 1e-300)[:, None]
+            exact = self.spheres.balls(self.spheres.onto(spots, across))[3]
+            move = dot(points - exact, step[:, 2:5]) / dot(step[:, 2:5], step[:, 2:5])
+            along = np.clip(along + move, 0.0, self._chords[-1])
+            if float(np.abs(move).max(initial=0.0)) <= AT_REST * self._chords[-1]:
+                break
+        ends = np.array([0.0, self._chords[-1]])
+        for stop, known in zip(ends, self.points[[0, -1]], strict=True):
+            exact[along == stop] = known
+        return exact
 
     def nearest(self, points: Array) -> tuple[Array, Array]:
-        """The feet on the rim of points (k, 3), and the edge's unit tangents (k, 3) over them."""
-        chord, step = np.diff(self.points, axis=0), np.diff(self.spots, axis=0)
+        """The feet on the rim of points (k, 3), and the edge's unit tangents (k, 3) over them.
+
+        Both are interpolated.
+        """
+        found = self._spline(self._along(points))
+        return found[:, 2:5], found[:, 5:] / norm(found[:, 5:])[:, None]
+
+    def _along(self, points: Array) -> Array:
+        """The parameters (k,) of the feet of points (k, 3): the length of chords before them."""
+        start, chord = self.points[:-1], np.diff(self.points, axis=0)
         square = np.maximum(dot(chord, chord), 1e-300)
-        every = np.clip(dot(points[:, None] - self.points[:-1], chord) / square, 0.0, 1.0)
-        off_chord = norm(points[:, None] - self.points[:-1] - every[..., None] * chord)
-        k = np.argmin(off_chord, axis=1)
-        share = every[np.arange(len(points)), k]
-        across = step[:, ::-1] * np.array([-1.0, 1.0])
-        across = across / np.maximum(norm(across), 1e-300)[:, None]
-        # two equations, one for the place along the chord and one across: close to independent
-        off = np.zeros(len(points))
-        slope = self.spheres.slope(self.spots[k] + share[:, None] * step[k], across[k])
-        placed, spots = points, self.spots[k]
+        share = np.clip(dot(points[:, None] - start, chord) / square, 0.0, 1.0)
+        k = np.argmin(norm(points[:, None] - start - share[..., None] * chord), axis=1)
+        part = share[np.arange(len(points)), k]
+        along = self._chords[k] + part * (self._chords[k + 1] - self._chords[k])
         for _ in range(APPROACHES):
-            spots = self.spots[k] + share[:, None] * step[k] + off[:, None] * across[k]
-            placed = self.spheres.balls(spots)[3]
-            move = dot(points - placed, chord[k]) / square[k]
-            aside = np.clip(-self.spheres.miss(spots) / slope, -0.1, 0.1)
-            share, off = np.clip(share + move, -1.0, 2.0), off + aside
-            if max(np.abs(move).max(initial=0.0), np.abs(aside).max(initial=0.0)) <= AT_REST:
-                break
-        return placed, self.spheres.tangents(spots)
+            way = self._spline(along, 1)[:, 2:5]
+            move = dot(points - self._spline(along)[:, 2:5], way) / dot(way, way)
+            along = np.clip(along + move, 0.0, self._chords[-1])
+        return np.asarray(along)
+
+    @cached_property
+    def _chords(self) -> Array:
+        lengths = norm(np.diff(self.points, axis=0))
+        return np.concatenate([[0.0], np.cumsum(lengths)])
+
+    @cached_property
+    def _spline(self) -> BSpline:
+        """Spots, centres and tangents (8,) over the length of chords."""
+        values = np.concatenate([self.spots, self.points, self.spheres.tangents(self.spots)], axis=1)
+        return make_interp_spline(self._chords, values, k=5)
 
 
 def _spread(spots: Array) -> list[int]:
@@ -227,7 +255,7 @@ class _EdgeRims:
         spots = spots[_spread(spots)]
         if float(norm(spots[-1] - spots[0])) <= SHORTEST:
             return None
-        while len(spots) < 5:
+        while len(spots) < KNOWN:
             spots = self._denser(spots)
         feet, _, _, centres = self._spheres.balls(spots)
         if closed:
