@@ -132,7 +132,9 @@ class RimCurve:
     @cached_property
     def _spline(self) -> BSpline:
         """Spots, centres and tangents (8,) over the length of chords."""
-        values = np.concatenate([self.spots, self.points, self.spheres.tangents(self.spots)], axis=1)
+        values = np.concatenate(
+            [self.spots, self.points, self.spheres.tangents(self.spots)], axis=1
+        )
         return make_interp_spline(self._chords, values, k=5)
 
 
@@ -263,9 +265,7 @@ class _EdgeRims:
         element = RimCurve(self._spheres, spots, centres)
         pair = (self._site, self._site)
         middle = feet[len(spots) // 2][None]
-        return CurvePiece(
-            LineKind.RIM, ((self._site,),), element, centres, middle, pairs=(pair,)
-        )
+        return CurvePiece(LineKind.RIM, ((self._site,),), element, centres, middle, pairs=(pair,))
 
     def _denser(self, spots: Array) -> Array:
         inner: Sequence[Array] = [

@@ -54,7 +54,9 @@ class SelfSheetMaker:
         self._incidence, self._points, self._add = incidence, points, add
         self._tests = SheetTests(index, incidence)
 
-    def sheets(self, site: int, lines: Sequence[Ints], rims: Sequence[RimCurve | None]) -> list[SheetPart]:
+    def sheets(
+        self, site: int, lines: Sequence[Ints], rims: Sequence[RimCurve | None]
+    ) -> list[SheetPart]:
         """The sheets of one edge with itself.
 
         Args:
@@ -152,9 +154,7 @@ class _EdgeSheets:
         """One of the two components in which each sheet is drawn."""
 
         def ask(rows: Ints, weights: Array) -> Bools:
-            feet, inward = self._domain.lift(
-                np.einsum("ij,ijk->ik", weights, found.corners[rows])
-            )
+            feet, inward = self._domain.lift(np.einsum("ij,ijk->ik", weights, found.corners[rows]))
             return self._tests.touches(self._site, self._site, feet, inward)
 
         name = f"of the edge {self._name} with itself"

@@ -154,7 +154,9 @@ class SelfSheetSurface:
             bottom = self.wells.bottom(twice[lost], chosen.reshape(-1)[lost])
             feet[lost] = curve.point(curve.wrapped(bottom))
         feet = feet.reshape(-1, 2, 3)
-        apart = (chosen[:, 0] != chosen[:, 1]) & (norm(feet[:, 0] - feet[:, 1]) > MERGED * self._size)
+        apart = (chosen[:, 0] != chosen[:, 1]) & (
+            norm(feet[:, 0] - feet[:, 1]) > MERGED * self._size
+        )
         return feet, apart
 
     def _known(self, points: Array) -> Ints:
