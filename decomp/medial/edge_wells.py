@@ -15,7 +15,7 @@ HALVINGS = 40
 CLOSE = 3
 """Samples beside a place that is nearest up to rounding or sampling."""
 DEEP = 0.1
-"""Places of the edge that are farther than the nearest by this part of the distance do not count."""
+"""Places that are farther than the nearest by this part of the distance do not count."""
 BLOCK = 512
 
 
@@ -81,7 +81,7 @@ class EdgeWells:
         return float(self.t[1] - self.t[0])
 
     def bottom(self, points: Array, sample: Ints) -> Array:
-        """Parameters (k,) of the places nearest to points (k, 3) beside samples (k,): by halving."""
+        """Parameters (k,) of the places nearest to points (k, 3) beside samples (k,)."""
         low, high = self.t[sample] - self.spacing, self.t[sample] + self.spacing
         if not self._edge.closed:
             low, high = np.maximum(low, self.t[0]), np.minimum(high, self.t[-1])
@@ -133,7 +133,7 @@ class EdgeWells:
         return result
 
     def deepest(self, points: Array, basins: Ints) -> Ints:
-        """The sample (k,) nearest to each of points (k, 3) in its basin (k, 2), and down from it."""
+        """The samples (k,) nearest to points (k, 3) in their basins (k, 2), and down from them."""
         count, result = len(self.t), np.empty(len(points), dtype=np.int64)
         for start in range(0, len(points), BLOCK):
             rows = slice(start, start + BLOCK)

@@ -79,12 +79,12 @@ def drawn_lines(
                 np.arange(first[k], first[k + 1]) for k in np.searchsorted(used, [a, b]).tolist()
             )
             gaps = apart(one, other)
-            found = set()
+            found: set[tuple[int, int]] = set()
             # at a node there may be feet that the line does not have
             if a not in nodes or b in nodes:
-                found |= {(int(i), int(other[k])) for i, k in zip(one, gaps.argmin(axis=1))}
+                found |= set(zip(one.tolist(), other[gaps.argmin(axis=1)].tolist(), strict=True))
             if b not in nodes or a in nodes:
-                found |= {(int(one[k]), int(j)) for j, k in zip(other, gaps.argmin(axis=0))}
+                found |= set(zip(one[gaps.argmin(axis=0)].tolist(), other.tolist(), strict=True))
             segments += sorted(found)
         of_line.append(np.unique(np.array(segments[begin:], dtype=np.int64)))
     both = np.sort(np.array(segments, dtype=np.int64).reshape(-1, 2), axis=1)

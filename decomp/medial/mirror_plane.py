@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.vectors import Array
+from decomp.vectors import Array, frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,3 +24,12 @@ class MirrorPlane:
     def normal(self, points: Array) -> Array:
         """The plane's unit normal, once for each point."""
         return np.broadcast_to(self.direction, points.shape).copy()
+
+    def coordinates(self, points: Array) -> Array:
+        """Plane coordinates (k, 2) of points (k, 3) on it."""
+        return np.asarray((points - self.point) @ np.stack(frame(self.direction), axis=1))
+
+    def mirrored(self, points: Array) -> Array:
+        """The mirror images of points (k, 3)."""
+        off = (points - self.point) @ self.direction
+        return np.asarray(points - 2 * off[:, None] * self.direction)

@@ -34,6 +34,8 @@ AROUND = 72
 TOWARDS = 0.5
 BESIDE = 1e-4
 """How far from the end of a part its equation is first looked at, in units of the size."""
+NOISE = 1e-6
+"""Values of less than this part of others next to them have no sign."""
 NEARER = (1e-5, 1e-5, 1e-6)
 """How far beyond an end derivatives are taken, in units of the size, step by step."""
 PARTS = 32
@@ -388,7 +390,8 @@ class _Search:
         a, b = u - BESIDE * self._size, u + BESIDE * self._size
         for function in (gap, change):
             # where the distances only touch their difference is least, its derivative is zero
-            if function(a) * function(b) < 0:
+            one, two = function(a), function(b)
+            if one * two < 0 and min(abs(one), abs(two)) > NOISE * max(abs(one), abs(two)):
                 return float(brentq(function, a, b, xtol=1e-15 * self._size, rtol=1e-15))
         for part in NEARER:
             step = sense * part * self._size

@@ -3,8 +3,8 @@
 A ball can touch an edge at two of its points. The centres of such balls form sheets of the edge
 with itself, which end where the two feet run together: at the centres of the edge's osculating
 spheres, as far as these are empty. In the edge's footprint such a rim is a curve K' . d = 0, see
-`osculation`; over a point at which the edge has a plane of symmetry, K' vanishes, so that the rim is
-the whole line of centres of curvature over that point.
+`osculation`; over a point at which the edge has a plane of symmetry, K' vanishes, so that the rim
+is the whole line of centres of curvature over that point.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline  # type: ignore[import-untyped]
@@ -268,9 +269,7 @@ class _EdgeRims:
         return CurvePiece(LineKind.RIM, ((self._site,),), element, centres, middle, pairs=(pair,))
 
     def _denser(self, spots: Array) -> Array:
-        inner: Sequence[Array] = [
-            self._between(a, b, 0.5)[0] for a, b in zip(spots[:-1], spots[1:], strict=True)
-        ]
+        inner: Sequence[Array] = [self._between(a, b, 0.5)[0] for a, b in pairwise(spots)]
         result = np.empty((2 * len(spots) - 1, 2))
         result[::2], result[1::2] = spots, np.array(inner)
         return result

@@ -219,22 +219,58 @@ class _EdgeSheets:
         planes: dict[int, MirrorPlane | None],
         add: Callable[[Array], int],
     ) -> list[SheetPart]:
+        flat = [n for n, plane in planes.items() if plane is not None]
+        parts = [part for n in flat for part in self._in_plane(found, n, planes[n])]
+        planes = {n: plane for n, plane in planes.items() if plane is None}
         drawn = len(self._drawn.vertex)
         numbers = np.full(len(self._points), -1, dtype=np.int64)
         numbers[:drawn] = self._drawn.vertex
         for k in np.unique(found.triangles[np.isin(found.component, list(planes))]):
             if k >= drawn:
                 numbers[k] = add(self._points[k])
-        parts = []
-        for number, plane in planes.items():
+        for number in planes:
             rows = np.flatnonzero(found.component == number)
             triangles = found.triangles[rows]
-            surface: SurfaceElement = plane or self._surface(found, rows)
+            surface: SurfaceElement = self._surface(found, rows)
             corners = self._points[triangles]
             normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
             wanted = surface.normal(corners.mean(axis=1))
             turned = triangles[:, ::-1] if float(dot(normals, wanted).sum()) < 0 else triangles
             parts.append(SheetPart((self._site, self._site), surface, numbers[turned]))
+        return parts
+
+    def _in_plane(
+        self, found: Triangulation, number: int, plane: MirrorPlane | None
+    ) -> list[SheetPart]:
+        """The sheet in a plane of symmetry that a component is drawn of, triangulated there."""
+        assert plane is not None
+        inside = found.triangles[found.component == number]
+        both = np.sort(np.stack([inside, np.roll(inside, -1, axis=1)], axis=-1).reshape(-1, 2))
+        sides = {(int(a), int(b)) for a, b in both}
+        drawn = self._drawn
+        own = [k for k, (a, b) in enumerate(drawn.segments.tolist()) if (a, b) in sides]
+        segments = np.unique(np.sort(drawn.vertex[drawn.segments[own]], axis=1), axis=0)
+        used, first = np.unique(drawn.vertex, return_index=True)
+        used, first = used[np.isin(used, segments)], first[np.isin(used, segments)]
+        points = self._points[first]
+        uv, local = plane.coordinates(points), np.searchsorted(used, segments)
+        bad = crossings(uv, local)
+        if len(bad):
+            rows = np.unique(bad)
+            raise CrossingError(
+                f"curves cross in a plane of symmetry near {place(points[local[rows[0], 0]])}",
+                segments[rows],
+            )
+        flat = triangulate(uv, local)
+
+        def ask(rows: Ints, weights: Array) -> Bools:
+            where = np.einsum("ij,ijk->ik", weights, points[flat.triangles[rows]])
+            return self._tests.mirror(self._site, where, plane.mirrored)
+
+        parts = []
+        for k in kept_components(flat, points, ask, f"of the edge {self._name} with itself"):
+            triangles = flat.triangles[flat.component == k]
+            parts.append(SheetPart((self._site, self._site), plane, used[triangles]))
         return parts
 
     def _surface(self, found: Triangulation, rows: Ints) -> SelfSheetSurface:

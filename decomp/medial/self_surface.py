@@ -139,7 +139,7 @@ class SelfSheetSurface:
         return on, ways
 
     def _feet(self, points: Array, known: Ints) -> tuple[Array, Bools]:
-        """Both feet (k, 2, 3) of points, from those of known ones (k,), and whether they are two."""
+        """Both feet (k, 2, 3) of points, from those of known ones, and whether they are two."""
         basins = self._basins[known]
         chosen = np.stack([self.wells.deepest(points, basins[:, side]) for side in (0, 1)], axis=1)
         starts = self.wells.points[chosen]
