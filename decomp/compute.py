@@ -20,8 +20,8 @@ from decomp.drafts import SAMPLES, SHARE, drafted, traced
 from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
+from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.result import Skeleton
-from decomp.medial.sheets import MissingCurveError
 from decomp.whole import Whole
 
 TOLERANCE = 5e-4

@@ -167,6 +167,54 @@ class EdgeDomain(Domain):
         return np.where(t <= end, t, np.where(t - end < start + curve.period - t, end, start))
 
 
+@dataclass(frozen=True, eq=False)
+class EvenStrip(Domain):
+    """The domain of an edge drawn equally high all along, so that its borders are straight.
+
+    Args:
+        strip: the same, as high as the spread is wide; its ends are open if it has any.
+        height: of this one.
+    """
+
+    strip: EdgeDomain
+    height: float
+
+    @property
+    def period(self) -> Period:
+        return self.strip.period
+
+    def to_plane(self, feet: Array, toward: Array) -> Array:
+        uv = self.strip.to_plane(feet, toward)
+        return np.stack([uv[..., 0], uv[..., 1] / self._stretch(uv[..., 0])], axis=-1)
+
+    def lift(self, uv: Array) -> tuple[Array, Array]:
+        high = uv[..., 1] * self._stretch(uv[..., 0])
+        return self.strip.lift(np.stack([uv[..., 0], high], axis=-1))
+
+    def _stretch(self, along: Array) -> Array:
+        edge = self.strip.edge
+        part = along / edge.length
+        part = np.mod(part, 1.0) if edge.closed else np.clip(part, 0.0, 1.0)
+        spread = self.strip.frames(edge.start + part * (edge.end - edge.start))[2]
+        return np.asarray(self.strip.reach * spread / self.height)
+
+
+def even_strip(boundary: RegionBoundary, index: int, reach: float) -> Domain:
+    """The domain of a reentrant edge with straight borders, if balls touch its ends in all ways.
+
+    Args:
+        boundary: of the region.
+        index: of the edge.
+        reach: radius at which angles are drawn.
+    """
+    strip = edge_domain(boundary, index, reach)
+    edge = strip.edge
+    if any(end.kind is not EndKind.OPEN for end in strip.ends):
+        return strip
+    spread = strip.frames(edge.start + (edge.end - edge.start) * (np.arange(64) + 0.5) / 64)[2]
+    return EvenStrip(strip, reach * float(spread.mean()))
+
+
 def edge_domain(boundary: RegionBoundary, index: int, reach: float) -> EdgeDomain:
     """The domain of a reentrant edge of a region.
 

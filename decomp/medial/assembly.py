@@ -13,6 +13,7 @@ from decomp.errors import GeometryError
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
+from decomp.medial.rims import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheet_surface import SheetSurface
@@ -24,7 +25,8 @@ from decomp.vectors import Array, Ints, norm, place
 
 ALONG_LOCI = 24
 """Chords at least along a reflexive curve to which trim surfaces lead."""
-
+ALONG_SELF = 8
+"""Chords at least along a curve that borders a sheet of an edge with itself."""
 TURN = 0.35
 """The most (radians) that normals turn from one sample of a trim to the next."""
 
@@ -135,24 +137,32 @@ class RegionAssembler:
         return np.array([first, *inner, last], dtype=np.int64)
 
     def _least_chords(self, piece: CurvePiece) -> int:
-        """Chords that trim surfaces need along their upper ends, lest their triangles fold."""
-        if piece.kind is LineKind.REFLEXIVE:
-            return ALONG_LOCI if any(not run.resting for run in self._curves.runs) else 1
+        """Chords that are needed beyond those that the tolerance asks for.
+
+        Trim surfaces need some along their upper ends, lest their triangles fold, and the sheets of
+        an edge with itself, lest the feet of neighbouring points be mistaken for each other.
+        """
+        if piece.kind is LineKind.REFLEXIVE and any(not run.resting for run in self._curves.runs):
+            return ALONG_LOCI
+        least = ALONG_SELF if any(a == b for a, b in piece.pairs) else 1
         turns = [0.0]
         for number in piece.over:
             ways = self._curves.over[number].directions(
                 self._curves.over[number].parameter(piece.points)
             )
             turns.append(float(norm(np.diff(ways, axis=0)).sum()))
-        return 1 + int(max(turns) / TURN)
+        return max(least, 1 + int(max(turns) / TURN))
 
     def _sheets(
         self, points: Array, lines: Sequence[Ints], nodes: Sequence[int]
     ) -> list[SheetPart]:
         borders: dict[tuple[int, int], list[Ints]] = {}
+        rims: dict[tuple[int, int], list[RimCurve | None]] = {}
         for piece, line in zip(self._curves.pieces, lines, strict=True):
             for pair in set(piece.pairs):
                 borders.setdefault(pair, []).append(line)
+                rim = piece.element if isinstance(piece.element, RimCurve) else None
+                rims.setdefault(pair, []).append(rim)
         incidence = self._curves.incidence
         for number, edge in enumerate(incidence.boundary.edges):
             if edge.convexity is Convexity.CONVEX:
@@ -160,11 +170,11 @@ class RegionAssembler:
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
         kinks = self._kinks(nodes)
         maker = SheetMaker(self._index, incidence, points, self._add)
-        own = SelfSheetMaker(self._index, incidence, points)
+        own = SelfSheetMaker(self._index, incidence, points, self._add)
         sheets = []
         for pair in sorted(borders):
             if pair[0] == pair[1]:
-                sheets.extend(own.sheets(pair[0], borders[pair]))
+                sheets.extend(own.sheets(pair[0], borders[pair], rims[pair]))
                 continue
             sheets.extend(maker.sheets(pair, borders[pair], kinks.get(pair, [])))
         return sheets

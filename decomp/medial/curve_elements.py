@@ -49,6 +49,12 @@ class SeamCurve:
         """The feet (k, m, 3) of the known points nearest to given ones (k, 3)."""
         return np.asarray(self.feet[self._apart][nearest_rows(self.points[self._apart], points)])
 
+    def feet_at(self, points: Array) -> Array:
+        """The feet (k, m, 3) of points (k, 3) on the seam."""
+        it = self.incidence
+        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        return equidistant(it.boundary, it.sites, which, points, self.feet_near(points)).feet
+
     @cached_property
     def _apart(self) -> Bools:
         """At which known points (k,) the contacts that share a site are two.

@@ -37,36 +37,45 @@ def seam_pieces(incidence: Incidence, seams: Sequence[Seam]) -> list[CurvePiece]
     """Traced seams, cut where a foot passes to another site."""
     found = []
     for seam in seams:
-        for sites, points in _runs(seam):
+        for sites, points, feet in _runs(seam):
             if len(points) < 3 and float(norm(points[-1] - points[0])) == 0.0:
                 continue
-            found.append(_seam_piece(incidence, sites, points))
+            found.append(_seam_piece(incidence, sites, points, feet))
     return found
 
 
-def _runs(seam: Seam) -> list[tuple[tuple[int, ...], Array]]:
-    """Maximal parts with constant sites: (sites, points)."""
-    points, sites = seam.points, list(seam.sites)
+def _runs(seam: Seam) -> list[tuple[tuple[int, ...], Array, Array]]:
+    """Maximal parts with constant sites: (sites, points, feet)."""
+    points, feet, sites = seam.points, seam.feet, list(seam.sites)
     if seam.ends is None:
         changes = [k for k in range(len(points)) if sites[k] != sites[k - 1]]
         first = changes[0] if changes else 0
         points = np.roll(points, -first, axis=0)
         points = np.concatenate([points, points[:1]])
+        feet = np.roll(feet, -first, axis=0)
+        feet = np.concatenate([feet, feet[:1]])
         sites = [*sites[first:], *sites[:first]]
         sites.append(sites[-1] if changes else sites[0])
     starts = [0, *(k for k in range(1, len(sites)) if sites[k] != sites[k - 1])]
     ends = [*(k - 1 for k in starts[1:]), len(sites) - 1]
-    return [(sites[a], points[a : b + 1]) for a, b in zip(starts, ends, strict=True)]
+    return [
+        (sites[a], points[a : b + 1], feet[a : b + 1]) for a, b in zip(starts, ends, strict=True)
+    ]
 
 
-def _seam_piece(incidence: Incidence, sites: tuple[int, ...], points: Array) -> CurvePiece:
-    feet = incidence.feet(sites, points)
+def _seam_piece(
+    incidence: Incidence, sites: tuple[int, ...], points: Array, traced: Array
+) -> CurvePiece:
+    several = len(set(sites)) < len(sites)
+    # several feet on one edge are known from tracing; to find them anew can fail where one of them
+    # is about to part
+    feet = traced if several else incidence.feet(sites, points)
     curve = SeamCurve(incidence, sites, points, feet)
     while len(points) < 4:
         points = _denser(curve, points)
     k = len(points) // 2
     middle = points[k]
-    at = incidence.feet(sites, middle[None])[0]
+    at = (curve.feet_at(middle[None]) if several else incidence.feet(sites, middle[None]))[0]
     contacts = []
     for site, foot in zip(sites, at, strict=True):
         contacts.append(incidence.touched(site, foot, (middle - foot) / float(norm(middle - foot))))

@@ -70,7 +70,11 @@ class Network:
 
 
 def network(
-    size: float, fixed: Array, pieces: Sequence[CurvePiece], turns: Sequence[Array] = ()
+    size: float,
+    fixed: Array,
+    pieces: Sequence[CurvePiece],
+    turns: Sequence[Array] = (),
+    touches: Sequence[Array] = (),
 ) -> Network:
     """Join pieces into a network.
 
@@ -78,16 +82,19 @@ def network(
         size: of the region.
         fixed: points (f, 3) that stay as they are: the first nodes. Other ends are joined to one
             of them, or to each other.
-        turns: more points (3,) at which pieces are cut.
+        turns: more points (3,) at which pieces are cut; ends that are joined to one move there.
+        touches: the same, but these move to ends.
         pieces: with their ends as first and last point; a piece whose first and last points agree
             to rounding and that is marked by `ends` None and `closed` points stays closed.
     """
     open_ = [p for p in pieces if not _is_loop(p)]
     loops = [p for p in pieces if _is_loop(p)]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
-    more = np.array(turns).reshape(-1, 3)
-    nodes, which = _welded(np.concatenate([fixed, ends, more]), len(fixed), WELD * size)
-    numbers = which[len(fixed) : len(fixed) + len(ends)].reshape(-1, 2)
+    firm, loose = (np.array(points).reshape(-1, 3) for points in (turns, touches))
+    every = np.concatenate([fixed, firm, ends, loose])
+    nodes, which = _welded(every, len(fixed), WELD * size)
+    first = len(fixed) + len(firm)
+    numbers = which[first : first + len(ends)].reshape(-1, 2)
     joined = []
     for piece, (a, b) in zip(open_, numbers.tolist(), strict=True):
         points = np.array(piece.points)

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.complex.model import SurfaceElement
+from decomp.medial.self_surface import SelfSheetSurface
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
@@ -132,7 +133,7 @@ class SheetRadii:
             surface = self._sheets[k].surface
             if not len(rows):
                 continue
-            if isinstance(surface, SheetSurface):
+            if isinstance(surface, (SheetSurface, SelfSheetSurface)):
                 moved[rows], good[rows] = surface.try_place(points[rows])
             else:
                 moved[rows] = surface.place(points[rows])

@@ -34,6 +34,10 @@ AROUND = 72
 TOWARDS = 0.5
 BESIDE = 1e-4
 """How far from the end of a part its equation is first looked at, in units of the size."""
+NOISE = 1e-6
+"""Values of less than this part of others next to them have no sign."""
+NEARER = (1e-5, 1e-5, 1e-6)
+"""How far beyond an end derivatives are taken, in units of the size, step by step."""
 PARTS = 32
 """Parts into which an interval is cut to narrow down where zeros end."""
 
@@ -357,10 +361,14 @@ class _Search:
         if near.region[0] != self._incidence.region:
             return inside, -1
         other = int(near.site[0])
-        return self._polished(inside, other, near.foot), other
+        return self._polished(inside, sense, other, near.foot), other
 
-    def _polished(self, u: float, other: int, foot: Array) -> float:
-        """Solve d_other(u) = d_carrier(u) from close by."""
+    def _polished(self, u: float, sense: float, other: int, foot: Array) -> float:
+        """Solve d_other(u) = d_carrier(u) from close by, zeros being on one side of u.
+
+        An edge of the carrier's own face is as near all along the zeros. There the difference of
+        the distances begins to grow with its derivative, which is linear beyond.
+        """
         which = np.array([other])
         it = self._incidence
 
@@ -382,6 +390,16 @@ class _Search:
         a, b = u - BESIDE * self._size, u + BESIDE * self._size
         for function in (gap, change):
             # where the distances only touch their difference is least, its derivative is zero
-            if function(a) * function(b) < 0:
+            one, two = function(a), function(b)
+            if one * two < 0 and min(abs(one), abs(two)) > NOISE * max(abs(one), abs(two)):
                 return float(brentq(function, a, b, xtol=1e-15 * self._size, rtol=1e-15))
+        for part in NEARER:
+            step = sense * part * self._size
+            level, one, two = (change(u + k * step) for k in (-1, 1, 2))
+            if not (abs(level) < 0.5 * abs(one) < 0.5 * abs(two) and one * two > 0):
+                break
+            move = step * (1 - one / (two - one))
+            if abs(move) > 10 * abs(step):
+                break
+            u += move
         return u

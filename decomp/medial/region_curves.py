@@ -114,8 +114,8 @@ def region_curves(
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
     turns = [run.points[k] for run in runs for k in (0, -1)]
-    turns += touching_points(incidence, seams)
-    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns)
+    touches = touching_points(incidence, seams)
+    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(
         incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(runs)

@@ -1,230 +1,275 @@
 """Rims of the sheets that a curved reentrant edge has with itself.
 
-Close to a point t0 at which an edge is symmetric, the balls that touch it on one side touch it on
-the other too, so a sheet between the edge and itself lies in the plane of symmetry. It ends where
-the two feet meet in t0: on the centres of curvature of the edge there, the line
-
-    p = e(t0) + d / (K . d)
-
-over all directions d between the normals of the edge's faces, with K the edge's curvature vector.
+A ball can touch an edge at two of its points. The centres of such balls form sheets of the edge
+with itself, which end where the two feet run together: at the centres of the edge's osculating
+spheres, as far as these are empty. In the edge's footprint such a rim is a curve K' . d = 0, see
+`osculation`; over a point at which the edge has a plane of symmetry, K' vanishes, so that the rim
+is the whole line of centres of curvature over that point.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
 import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline  # type: ignore[import-untyped]
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
-from decomp.medial.curve_elements import RayCurve
-from decomp.medial.incidence import Incidence, angle_between
-from decomp.medial.normal_curves import VertexRay
+from decomp.medial.contours import chains, contour
+from decomp.medial.incidence import Incidence
+from decomp.medial.osculation import Osculation
 from decomp.medial.pieces import CurvePiece
-from decomp.medial.trims import solve_radius
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, cross, dot, norm, place
+from decomp.tracing.queries import region_queries
+from decomp.vectors import Array, Bools, dot, norm, place
 
-ALONG = 256
-ACROSS = 32
-OFFSETS = (0.08, 0.04)
-"""How far from a point of symmetry, in parts of the edge, its two sides are compared."""
-SAME = 1e-6
+ALONG, ACROSS = 256, 32
+"""Cells along and across an edge's footprint in which rims are looked for."""
+SHIFT = 0.37
+"""The first cell begins at no round place, where a point of symmetry may be."""
+EMPTY = 1e-10
+"""A ball is empty if the boundary enters it by less than this part of the size."""
+HALVINGS = 12
+SHORTEST = 1e-9
+CLOSE = 0.5
+"""Spots nearer to each other than this part of a cell's height are one too many."""
+NEAR = 0.02
+"""A foot nearer to the first one than this part of the radius is about to run together with it."""
+APPROACHES = 4
+CORRECTIONS = 12
+AT_REST = 1e-12
+KNOWN = 65
+"""Spots of a rim that are known at least."""
 
 
 def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
     """The rims of all edges of a region.
 
     Raises:
-        GeometryError: an edge has a sheet with itself that lies in no plane of symmetry.
+        GeometryError: a rim's end cannot be found; says where.
     """
     found = []
     for number, site in incidence.edge_site.items():
         edge = incidence.boundary.edges[number]
         if not isinstance(edge.curve, (Line, Circle)):
-            found.extend(_Edge(index, incidence, edge, number, site).rims())
+            found.extend(_EdgeRims(index, incidence, number, site).pieces())
     return found
 
 
-class _Edge:
-    def __init__(
-        self, index: SiteIndex, incidence: Incidence, edge: Edge, number: int, site: int
-    ) -> None:
-        self._index, self._incidence = index, incidence
-        self._edge, self._number, self._site = edge, number, site
-        self._boundary: RegionBoundary = incidence.boundary
+@dataclass(frozen=True, eq=False)
+class RimCurve:
+    """The centres of an edge's osculating spheres along a part of its footprint.
+
+    Between the known spots others are interpolated by a spline and then made exact.
+
+    Args:
+        spheres: of the edge.
+        spots: known spots (k, 2) in order, at least 6.
+        points: the centres (k, 3) over them.
+    """
+
+    spheres: Osculation
+    spots: Array
+    points: Array
+
+    @cached_property
+    def feet(self) -> Array:
+        """The edge's points (k, 3) over the known spots."""
+        return self.spheres.place(self.spots)[0]
+
+    def place(self, points: Array) -> Array:
+        """Move points (k, 3) to their feet on the rim."""
+        along, exact = self._along(points), points
+        for _ in range(CORRECTIONS):
+            spots, step = self._spline(along)[:, :2], self._spline(along, 1)
+            across = step[:, 1::-1] * np.array([-1.0, 1.0])
+            across = across / np.maximum(norm(across), 1e-300)[:, None]
+            exact = self.spheres.balls(self.spheres.onto(spots, across))[3]
+            move = dot(points - exact, step[:, 2:5]) / dot(step[:, 2:5], step[:, 2:5])
+            along = np.clip(along + move, 0.0, self._chords[-1])
+            if float(np.abs(move).max(initial=0.0)) <= AT_REST * self._chords[-1]:
+                break
+        ends = np.array([0.0, self._chords[-1]])
+        for stop, known in zip(ends, self.points[[0, -1]], strict=True):
+            exact[along == stop] = known
+        return exact
+
+    def nearest(self, points: Array) -> tuple[Array, Array]:
+        """The feet on the rim of points (k, 3), and the edge's unit tangents (k, 3) over them.
+
+        Both are interpolated.
+        """
+        found = self._spline(self._along(points))
+        return found[:, 2:5], found[:, 5:] / norm(found[:, 5:])[:, None]
+
+    def _along(self, points: Array) -> Array:
+        """The parameters (k,) of the feet of points (k, 3): the length of chords before them."""
+        start, chord = self.points[:-1], np.diff(self.points, axis=0)
+        square = np.maximum(dot(chord, chord), 1e-300)
+        share = np.clip(dot(points[:, None] - start, chord) / square, 0.0, 1.0)
+        k = np.argmin(norm(points[:, None] - start - share[..., None] * chord), axis=1)
+        part = share[np.arange(len(points)), k]
+        along = self._chords[k] + part * (self._chords[k + 1] - self._chords[k])
+        for _ in range(APPROACHES):
+            way = self._spline(along, 1)[:, 2:5]
+            move = dot(points - self._spline(along)[:, 2:5], way) / dot(way, way)
+            along = np.clip(along + move, 0.0, self._chords[-1])
+        return np.asarray(along)
+
+    @cached_property
+    def _chords(self) -> Array:
+        lengths = norm(np.diff(self.points, axis=0))
+        return np.concatenate([[0.0], np.cumsum(lengths)])
+
+    @cached_property
+    def _spline(self) -> BSpline:
+        """Spots, centres and tangents (8,) over the length of chords."""
+        values = np.concatenate(
+            [self.spots, self.points, self.spheres.tangents(self.spots)], axis=1
+        )
+        return make_interp_spline(self._chords, values, k=5)
+
+
+def _spread(spots: Array) -> list[int]:
+    """The first and last of spots (k, 2), and those between that are not close together."""
+    kept = [0]
+    for k in range(1, len(spots) - 1):
+        near = min(float(norm(spots[k] - spots[j])) for j in (kept[-1], len(spots) - 1))
+        if near > CLOSE / ACROSS:
+            kept.append(k)
+    return [*kept, len(spots) - 1]
+
+
+class _EdgeRims:
+    def __init__(self, index: SiteIndex, incidence: Incidence, number: int, site: int) -> None:
+        self._index, self._incidence, self._site = index, incidence, site
         self._size = incidence.boundary.diagonal
-        self._span = edge.end - edge.start
+        self._edge = incidence.boundary.edges[number]
+        self._spheres = Osculation(incidence.boundary, self._edge)
+        self._queries = region_queries(index, incidence.region)
 
-    def rims(self) -> list[CurvePiece]:
-        """Rims at all points of symmetry at which there is one."""
-        found = []
-        for t in self._symmetric():
-            found.extend(self._rims_at(t))
-        return found
-
-    def _directions(self, t: Array, share: float | Array) -> Array:
-        """Directions at parts of the angle between the two faces' inward normals."""
-        q = self._edge.curve.point(t)
-        a, b = (self._incidence.inward(f, q) for f in self._edge.faces)
-        tangent = self._edge.curve.derivative(t)
-        tangent = tangent / norm(tangent)[:, None]
-        angle = np.asarray(share) * angle_between(a, b, tangent)
-        side = cross(tangent, a)
-        return np.asarray(np.cos(angle)[:, None] * a + np.sin(angle)[:, None] * side)
-
-    def _partner(self, t: Array, share: float) -> Array:
-        """How far along the edge the second foot is that the balls have on it; NaN if none."""
-        q, ways = self._edge.curve.point(t), self._directions(t, share)
-        balls = inscribed_balls(self._index, self._boundary, self._incidence.region, q, ways)
-        other = np.full(len(t), np.nan)
-        on = balls.site == self._site
-        if on.any():
-            step = self._edge.curve.parameter(balls.foot[on]) - t[on]
-            if self._edge.curve.closed:
-                period = self._edge.curve.period
-                step = step - period * np.round(step / period)
-            other[on] = step
-        return other
-
-    def _symmetric(self) -> list[float]:
-        """Parameters at which partners close to them lie on both sides."""
-        edge = self._edge
-        parts = (np.arange(ALONG) + 0.37) / ALONG
-        t = edge.start + self._span * parts
-        found = []
-        for share in (0.5, 0.2, 0.8):
-            step = self._partner(t, share)
-            spacing = self._span / ALONG
-            pairs = list(zip(range(ALONG - 1), range(1, ALONG), strict=True))
-            if edge.closed:
-                pairs.append((ALONG - 1, 0))
-            for i, j in pairs:
-                near = abs(step[i]) < 6 * spacing and abs(step[j]) < 6 * spacing
-                if near and step[i] > 0 > step[j]:
-                    found.append(self._centre(float(t[i]) + spacing / 2, share))
-        unique: list[float] = []
-        for value in found:
-            gaps = [abs(value - known) for known in unique]
-            if edge.curve.closed:
-                gaps = [min(gap, abs(gap - edge.curve.period)) for gap in gaps]
-            if not any(gap <= 1e-6 * self._span for gap in gaps):
-                unique.append(value)
-        return unique
-
-    def _centre(self, near: float, share: float) -> float:
-        """The point of symmetry: where the mid-planes of partners cut the edge."""
-        centres = []
-        for offset in OFFSETS:
-            t = np.array([near - offset * self._span])
-            partner = self._exact_partner(t, share)
-            if partner is None:
+    def pieces(self) -> list[CurvePiece]:
+        """All rims of the edge."""
+        along = (np.arange(ALONG) + SHIFT) / ALONG
+        across = np.linspace(0, 1, ACROSS + 1)
+        grid = np.stack(np.meshgrid(along, across, indexing="ij"), axis=-1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            values = self._spheres.miss(grid.reshape(-1, 2)).reshape(grid.shape[:-1])
+        if self._edge.closed:
+            along = np.concatenate([along, along[:1] + 1])
+            values = np.concatenate([values, values[:1]])
+        found = contour(values, (along, across), self._spheres.miss)
+        if not len(found.spots):
+            return []
+        spots, links = found.spots, found.links
+        if self._edge.closed:
+            # the sides of the last cells are those of the first
+            same = {}
+            for k, (u, v) in enumerate(spots.tolist()):
+                if u == along[-1]:
+                    gaps = np.abs(spots - [along[0], v]).max(axis=1)
+                    if gaps.min() < 1e-12:
+                        same[k] = int(np.argmin(gaps))
+            links = np.array([[same.get(a, a) for a in pair] for pair in links.tolist()])
+        on = self._empty(spots)
+        inner = links[on[links].all(axis=1)] if len(links) else links
+        ends: dict[int, list[int]] = {}
+        for a, b in links.tolist():
+            for one, other in ((a, b), (b, a)):
+                if on[one] and not on[other]:
+                    ends.setdefault(one, []).append(other)
+        pieces = []
+        for chain, closed in chains(inner, len(spots)):
+            if not on[chain[0]]:
                 continue
-            a, b = self._edge.curve.point(t)[0], partner
-            middle, across = (a + b) / 2, (b - a) / float(norm(b - a))
-            at = near
-            for _ in range(30):
-                x = self._edge.curve.point(np.array([at]))[0]
-                v = self._edge.curve.derivative(np.array([at]))[0]
-                move = float((middle - x) @ across) / float(v @ across)
-                at += move
-                if abs(move) <= 1e-16 * (1 + abs(at)):
-                    break
-            centres.append(at)
-        if len(centres) < 2 or abs(centres[0] - centres[1]) > 1e-8 * self._span:
-            where = place(self._edge.curve.point(np.array([near]))[0])
-            name = self._incidence.sites[self._site].name
+            line = [spots[k] for k in chain]
+            if closed:
+                line.append(spots[chain[0]])
+            else:
+                beyond = list(ends.get(chain[-1], []))
+                if len(chain) == 1 and len(beyond) == 2:
+                    line.insert(0, self._end(spots[chain[0]], spots[beyond.pop()]))
+                elif chain[0] in ends and len(chain) > 1:
+                    line.insert(0, self._end(spots[chain[0]], spots[ends[chain[0]][0]]))
+                if beyond:
+                    line.append(self._end(spots[chain[-1]], spots[beyond[0]]))
+            piece = self._piece(self._unrolled(np.array(line)), closed)
+            if piece is not None:
+                pieces.append(piece)
+        return pieces
+
+    def _unrolled(self, spots: Array) -> Array:
+        """The same spots without jumps by a period."""
+        turns = np.round(np.diff(spots[:, 0], prepend=spots[0, 0])).cumsum()
+        return spots - turns[:, None] * [1.0, 0.0] if self._edge.closed else spots
+
+    def _empty(self, spots: Array) -> Bools:
+        """Whether the balls of centres of curvature are in the region and empty."""
+        _, _, radius, centre = self._spheres.balls(spots)
+        inside, reach = self._queries.depth(centre)
+        return np.asarray(inside & (reach >= radius - EMPTY * self._size))
+
+    def _between(self, one: Array, other: Array, share: float) -> Array:
+        """The spot (1, 2) of the rim over a part of the chord between two of its spots."""
+        apart = other - one
+        if self._edge.closed:
+            apart = apart - np.array([np.round(apart[0]), 0.0])
+        across = np.array([[-apart[1], apart[0]]]) / float(norm(apart))
+        return self._spheres.onto((one + share * apart)[None], across)
+
+    def _end(self, inside: Array, outside: Array) -> Array:
+        """Where between two spots of a rim a further contact is as near."""
+        it, low, high = self._incidence, 0.0, 1.0
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            if self._empty(self._between(inside, outside, middle))[0]:
+                low = middle
+            else:
+                high = middle
+        feet, ways, _, _ = self._spheres.balls(self._between(inside, outside, high))
+        ball = inscribed_balls(self._index, it.boundary, it.region, feet, ways)
+        if int(ball.site[0]) < 0 or float(norm(ball.foot - feet)[0]) < NEAR * float(ball.radius[0]):
+            name = it.sites[self._site].name
             raise GeometryError(
-                f"the edge {name} has a sheet with itself near {where} that has no plane of "
-                "symmetry; such sheets are not supported"
+                f"the rim of the edge {name}'s sheet with itself ends near {place(feet[0])} where "
+                "more than two feet run together; such ends are not supported"
             )
-        return centres[1]
-
-    def _exact_partner(self, t: Array, share: float) -> Array | None:
-        """The second foot (3,) of the ball over a parameter (1,), if it is ahead on the edge."""
-        step = self._partner(t, share)
-        if not np.isfinite(step[0]) or step[0] <= 0:
-            return None
-        q, way = self._edge.curve.point(t)[0], self._directions(t, share)[0]
-        foot = self._edge.curve.point(self._edge.curve.wrapped(t + step))
-        chord = foot[0] - q
-        radius = float(chord @ chord) / (2 * float(chord @ way))
-        ray = VertexRay(0.0, radius, False, (self._site, self._site), q, way)
-        zero = np.zeros(1)
-        guess = np.array([radius])
-        exact = solve_radius(self._incidence, ray, self._site, zero, foot, guess)
-        it = self._incidence
-        which = np.array([self._site])
-        centre = q + exact[:, None] * way
-        return np.asarray(site_fields(it.boundary, it.sites, which, centre, foot).foot[0])
-
-    def _rims_at(self, t0: float) -> list[CurvePiece]:
-        """The parts of the line of centres of curvature over t0 that are in the skeleton."""
-        share = np.linspace(0, 1, ACROSS + 1)
-        q, ways, curved = self._centres(t0, share)
-        balls = inscribed_balls(self._index, self._boundary, self._incidence.region, q, ways)
-        # a ball that osculates the edge comes to rest a little late, but never early
-        on = balls.radius >= curved - SAME * self._size
-        found = []
-        padded = np.concatenate([[False], on, [False]])
-        for first, last in zip(
-            np.flatnonzero(padded[1:] & ~padded[:-1]),
-            np.flatnonzero(padded[:-1] & ~padded[1:]) - 1,
-            strict=True,
-        ):
-            ends = []
-            for k, beyond in ((first, first - 1), (last, last + 1)):
-                if 0 <= beyond <= ACROSS:
-                    foot = balls.foot[beyond]
-                    other = int(balls.site[beyond])
-                    ends.append(self._met(t0, float(share[k]), float(share[beyond]), other, foot))
-                else:
-                    ends.append(float(share[k]))
-            if ends[1] - ends[0] > 1e-9:
-                found.append(self._piece(t0, np.linspace(ends[0], ends[1], ACROSS + 1)))
-        return found
-
-    def _centres(self, t0: float, share: Array) -> tuple[Array, Array, Array]:
-        """The edge's point over t0, directions across it, and radii of curvature in them."""
-        t = np.full(len(share), t0)
-        q, ways = self._edge.curve.point(t), self._directions(t, share)
-        bend = ways @ self._curvature(q[0])
-        curved = np.where(bend > 1e-12 / self._size, 1 / np.where(bend > 0, bend, 1.0), np.inf)
-        return q, ways, curved
-
-    def _met(self, t0: float, inside: float, outside: float, other: int, foot: Array) -> float:
-        """The direction in which a third site is as near as the edge."""
-        it = self._incidence
 
         def gap(share: float) -> float:
-            q, ways, curved = self._centres(t0, np.array([share]))
-            centre = q + curved[:, None] * ways
-            which = np.array([other])
-            field = site_fields(it.boundary, it.sites, which, centre, foot[None])
-            return float(field.distance[0] - curved[0])
+            _, _, radius, centre = self._spheres.balls(self._between(inside, outside, share))
+            field = site_fields(it.boundary, it.sites, ball.site, centre, ball.foot)
+            return float(field.distance[0] - radius[0])
 
-        return float(brentq(gap, inside, outside, xtol=1e-15))
+        if gap(low) <= 0:
+            return np.asarray(self._between(inside, outside, low)[0])
+        return np.asarray(self._between(inside, outside, float(brentq(gap, low, high)))[0])
 
-    def _piece(self, t0: float, share: Array) -> CurvePiece:
-        q, ways, curved = self._centres(t0, share)
-        points = q + curved[:, None] * ways
-        along = points[-1] - points[0]
-        line = RayCurve(points[0], along / float(norm(along)))
+    def _piece(self, spots: Array, closed: bool) -> CurvePiece | None:
+        """A rim over spots (k, 2) in order."""
+        spots = spots[_spread(spots)]
+        if float(norm(spots[-1] - spots[0])) <= SHORTEST:
+            return None
+        while len(spots) < KNOWN:
+            spots = self._denser(spots)
+        feet, _, _, centres = self._spheres.balls(spots)
+        if closed:
+            centres[-1] = centres[0]
+        element = RimCurve(self._spheres, spots, centres)
         pair = (self._site, self._site)
-        return CurvePiece(
-            LineKind.RIM, ((self._site,),), line, line.place(points), q[:1], pairs=(pair,)
-        )
+        middle = feet[len(spots) // 2][None]
+        return CurvePiece(LineKind.RIM, ((self._site,),), element, centres, middle, pairs=(pair,))
 
-    def _curvature(self, point: Array) -> Array:
-        """The edge's curvature vector at a point, from the normal curvatures of its carriers."""
-        a, b = (self._boundary.carriers[k] for k in self._edge.carriers)
-        tangent = self._incidence.tangent(self._number, point)
-        na, nb = a.normal(point), b.normal(point)
-        ha, hb = -a.normal_curvature(point, tangent), -b.normal_curvature(point, tangent)
-        c = float(dot(na, nb))
-        s2 = 1 - c**2
-        return np.asarray(((ha - c * hb) * na + (hb - c * ha) * nb) / s2)
+    def _denser(self, spots: Array) -> Array:
+        inner: Sequence[Array] = [self._between(a, b, 0.5)[0] for a, b in pairwise(spots)]
+        result = np.empty((2 * len(spots) - 1, 2))
+        result[::2], result[1::2] = spots, np.array(inner)
+        return result

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from decomp.medial.incidence import Incidence
@@ -45,6 +47,16 @@ class SheetTests:
         if len(rows):
             result[rows] = self.balls(feet[rows], inward[rows]).site == other
         return result
+
+    def mirror(self, site: int, points: Array, mirrored: Callable[[Array], Array]) -> Bools:
+        """Whether an edge is nearest to points (k, 3), in two feet that mirror each other."""
+        found = self._index.nearest(points)
+        good = (found.region == self._incidence.region) & (found.site == site)
+        image = mirrored(found.foot)
+        apart = norm(image - found.foot) > OFF * self._size
+        toward = self._index.nearest(points + NEARER * (image - points))
+        touched = np.abs(toward.distance - (1 - NEARER) * found.distance) <= SLACK * self._size
+        return np.asarray(good & apart & touched)
 
     def in_skeleton(self, pair: tuple[int, int], near: Array, surface: SheetSurface) -> Bools:
         """Whether points near the surface, moved onto it, have both sites as nearest ones."""

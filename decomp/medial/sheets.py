@@ -23,18 +23,14 @@ from decomp.complex.planar import (
     triangulate,
 )
 from decomp.errors import GeometryError
+from decomp.medial.component_votes import kept_components
 from decomp.medial.incidence import Incidence
 from decomp.medial.sheet_domains import SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
-from decomp.vectors import Array, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
-TESTS = 7
-"""Triangles of each component at which it is asked what it is."""
-UNCLEAR = 0.1
-"""A component with votes of more weight than this on either side is neither sheet nor none. Votes
-count by inradius: a sliver beside a border can lie on its wrong side."""
 ROUNDS = 12
 FILL = 6
 """Points per period with which a domain that has too few is filled."""
@@ -53,10 +49,6 @@ class CrossingError(GeometryError):
     def __init__(self, message: str, segments: Ints) -> None:
         super().__init__(message)
         self.segments = segments
-
-
-class MissingCurveError(GeometryError):
-    """A part of a footprint is partly sheet and partly not: a curve between them is not known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,36 +244,17 @@ class SheetMaker:
         surface: SheetSurface,
     ) -> list[int]:
         """Numbers of the components that are sheets."""
-        points, domain, column = draft.points, draft.domain, draft.column
-        weights, inradius = _incentres(found.corners)
-        rows, owner = [], []
-        for number in range(found.components):
-            members = np.flatnonzero(found.component == number)
-            chosen = members[np.argsort(-inradius[members])[:TESTS]]
-            rows.extend(chosen.tolist())
-            owner.extend([number] * len(chosen))
-        if not rows:
-            return []
-        where = np.einsum("ij,ijk->ik", weights[rows], points[found.triangles[rows]])
-        if domain is None:
-            yes = self._tests.in_skeleton(pair, where, surface)
-        else:
-            feet, inward = domain.lift(np.einsum("ij,ijk->ik", weights[rows], found.corners[rows]))
-            yes = self._tests.touches(pair[column], pair[1 - column], feet, inward)
-        owners = np.array(owner)
-        kept = []
-        for number in range(found.components):
-            own = owners == number
-            share = float(np.average(yes[own], weights=inradius[rows][own]))
-            if UNCLEAR < share < 1 - UNCLEAR:
-                odd = where[own][yes[own] != (share > 0.5)][0]
-                names = " and ".join(self._incidence.sites[s].name for s in pair)
-                raise MissingCurveError(
-                    f"the sheet between {names} has no clear end near {place(odd)}"
-                )
-            if share > 0.5:
-                kept.append(number)
-        return kept
+        domain, column = draft.domain, draft.column
+
+        def ask(rows: Ints, weights: Array) -> Bools:
+            if domain is None:
+                where = np.einsum("ij,ijk->ik", weights, draft.points[found.triangles[rows]])
+                return self._tests.in_skeleton(pair, where, surface)
+            feet, inward = domain.lift(np.einsum("ij,ijk->ik", weights, found.corners[rows]))
+            return self._tests.touches(pair[column], pair[1 - column], feet, inward)
+
+        names = " and ".join(self._incidence.sites[s].name for s in pair)
+        return kept_components(found, draft.points, ask, f"between {names}")
 
     def _oriented(self, surface: SheetSurface, points: Array, triangles: Ints) -> Ints:
         corners = points[triangles]
@@ -298,12 +271,3 @@ def segments_of(lines: Sequence[Ints]) -> Ints:
         return np.empty((0, 2), dtype=np.int64)
     both = np.sort(np.concatenate(parts), axis=1)
     return np.unique(both, axis=0)
-
-
-def _incentres(corners: Array) -> tuple[Array, Array]:
-    """Barycentric coordinates (m, 3) of the incentres of plane triangles, and inradii (m,)."""
-    a, b, c = (corners[:, k] for k in range(3))
-    sides = np.stack([norm(b - c), norm(c - a), norm(a - b)], axis=1)
-    perimeter = sides.sum(axis=1)
-    doubled = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    return sides / perimeter[:, None], doubled / perimeter

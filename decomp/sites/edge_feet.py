@@ -14,6 +14,7 @@ from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
 SINGULAR = 1e-6
+HASTE = 8
 NEXT_TO_CONTACT = 1e-6
 """The part of a chord next to a point where two carriers touch that is looked at first."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
@@ -178,13 +179,16 @@ def from_end(
 def between_samples(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
 ) -> tuple[bool, Triple]:
-    """The nearest point strictly between two samples, if there is one (regula falsi)."""
+    """The nearest point strictly between two samples, if there is one (regula falsi, halving)."""
     low, good, ahead, q = from_end(table, a, b, samples, i, 0.0, p)
     high, good2, behind, _ = from_end(table, a, b, samples, i, 1.0, p)
     if not (good and good2 and ahead > 0.0 and behind < 0.0):
         return False, q
-    for _ in range(60):
+    for step in range(60):
         u = high - behind * (high - low) / (behind - ahead)
+        if step > HASTE and step % 2 == 0:
+            # at a centre of curvature the function is so flat that secants creep
+            u = (low + high) / 2
         if not low < u < high:
             break
         good, value, q = advance(table, a, b, samples, i, u, p)

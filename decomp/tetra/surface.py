@@ -19,9 +19,9 @@ from decomp.complex.refine import refined
 from decomp.drafts import SAMPLES, Draft, drafted, traced
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
+from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import Cell, Sheet, TrimSurface
-from decomp.medial.sheets import MissingCurveError
 from decomp.medial.trim_maker import owners
 from decomp.sites.site import Site
 from decomp.tetra.content import contents

@@ -45,7 +45,10 @@ def fin(
     clear = [k for k, s in enumerate(rows) if _gap(s, pair) > FEWEST * s.radius]
     if not clear:
         return None
-    wide = start = rows[clear[-1]]
+    start = rows[clear[-1]]
+    # from a wide gap to a narrow one feet can be followed, the other way they may miss
+    wider = [k for k in clear if _gap(rows[k], pair) >= WIDE / 2 * rows[k].radius]
+    wide = rows[wider[-1]] if wider else start
     for _ in range(ROUNDS):
         if WIDE / 2 <= _gap(wide, pair) / wide.radius <= WIDE:
             break

@@ -81,11 +81,12 @@ class GraphNodes:
             )
         return self.at(point)
 
-    def at(self, point: Array, fin: bool = False) -> int:
+    def at(self, point: Array, ending: bool = False) -> int:
         """The node at a point, a new one unless it is known.
 
-        A fin can end on a reflexive locus, from which a whole arc of a face is as near. No seam
-        leaves with a contact there, which is only one point of the arc.
+        A fin, or a seam between feet of one edge, can end on a reflexive locus, from which a whole
+        arc of a face is as near. No seam leaves with a contact there, which is only one point of
+        the arc; the seam that is `ending` is given a ray of its own.
         """
         known = self.known(point)
         if known is not None:
@@ -95,7 +96,7 @@ class GraphNodes:
         arcs = {
             k
             for k, sites in enumerate(touching.sites)
-            if fin and self._points.on_locus(sites, point)
+            if ending and self._points.on_locus(sites, point)
         }
         for ray in seam_rays(touching.gradients):
             if arcs & set(ray.contacts):
@@ -104,7 +105,10 @@ class GraphNodes:
                 rays.append(replace(ray, contacts=contacts))
                 states.append(state)
         node = Node(point, touching.radius, touching.sites, touching.feet, tuple(rays))
-        return self.add(node, states)
+        number = self.add(node, states)
+        if arcs:
+            self._unforeseen.add(number)
+        return number
 
     def add(self, node: Node, states: Sequence[State]) -> int:
         """Add a node with the first points of its rays."""

@@ -17,6 +17,7 @@ from decomp.sites import SiteIndex
 from decomp.sites.occupancy import NOWHERE, on_boundary
 from decomp.tracing.balls import Balls, balls_at
 from decomp.tracing.compiled import scalar
+from decomp.tracing.edge_seeds import edge_jumps
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.probing import TOWARDS, Probe, inside
 from decomp.tracing.queries import RegionQueries, region_queries
@@ -62,7 +63,7 @@ class _Samples:
 def seam_seeds(
     index: SiteIndex, boundary: RegionBoundary, region: int, samples: int, seed: int
 ) -> Seeds:
-    """Look for seams over all faces of a region.
+    """Look for seams over all faces and curved reentrant edges of a region.
 
     Args:
         index: nearest-site queries of the model.
@@ -84,7 +85,10 @@ def seam_seeds(
     kept = signs != 0
     found = _Samples(points[kept], which[kept], signs[kept])
     first, second = _pairs(found)
-    return _between(index, boundary, queries, found, first, second)
+    spots = _between(boundary, queries, found, first, second)
+    more = edge_jumps(boundary, queries, samples, rng)
+    points, feet = (np.concatenate(both) for both in zip(spots, more, strict=True))
+    return _exact(index, boundary, queries, points, feet)
 
 
 def _scattered(
@@ -157,14 +161,9 @@ def _pairs(samples: _Samples) -> tuple[Ints, Ints]:
 
 
 def _between(
-    index: SiteIndex,
-    boundary: RegionBoundary,
-    queries: RegionQueries,
-    samples: _Samples,
-    one: Ints,
-    other: Ints,
-) -> Seeds:
-    """Narrow down where the far foot jumps between samples, by bisection."""
+    boundary: RegionBoundary, queries: RegionQueries, samples: _Samples, one: Ints, other: Ints
+) -> tuple[Array, Array]:
+    """Where the far foot jumps between samples, by bisection: points (k, 3), feet (k, 3, 3)."""
     size = boundary.diagonal
 
     def normals(carriers: Ints, signs: Array, points: Array) -> Array:
@@ -211,7 +210,7 @@ def _between(
     near &= norm(low.foot - high.foot) > JUMP * norm(first - second)
     near &= low.radius > 1e-6 * size
     feet = np.stack([first, low.foot, high.foot], axis=1)[near]
-    return _exact(index, boundary, queries, low.centre[near], feet)
+    return low.centre[near], feet
 
 
 def _exact(

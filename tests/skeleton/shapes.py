@@ -32,6 +32,13 @@ def branched(branch: Solid) -> Solid:
     return Cylinder((-5, 0, 0), (5, 0, 0), 1, name="run") | branch
 
 
+def offset_tee(beside: float, radius: float) -> Solid:
+    """A pipe with a branch whose axis passes beside the pipe's."""
+    return Cylinder((-3, 0, 0), (3, 0, 0), 1, name="run") | Cylinder(
+        (0, beside, 0), (0, beside, 3), radius, name="branch"
+    )
+
+
 def bulge() -> Solid:
     """A bar with a ball on it whose centre is beside the bar's axis."""
     return Cylinder((-2, 0, 0), (2, 0, 0), 0.5, name="bar") | Sphere((0, 0.2, 0), 0.8, name="ball")
@@ -62,6 +69,8 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "oblique tee": lambda: branched(Cylinder((0, 0, 0), (2, 0, 4), 0.5, name="branch")),
     "wye": lambda: branched(Cylinder((0, 0, 0), (3, 0, 3), 1, name="branch")),
     "tapered tee": lambda: branched(Cone((0, 0, 0), 0.6, (0, 0, 3), 0.3, name="branch")),
+    "offset tee": lambda: offset_tee(0.3, 0.5),
+    "wide offset tee": lambda: offset_tee(0.2, 0.7),
     "bulge": bulge,
     "spoke": spoke,
     "grooved shaft": grooved,

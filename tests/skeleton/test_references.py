@@ -344,6 +344,29 @@ def test_equal_tee() -> None:
     assert sum(tee.volumes().values()) == pytest.approx(8 * pi - 8 / 3, rel=1e-3)
 
 
+def test_offset_tee() -> None:
+    """The edge has three feet along a seam in the plane of symmetry, from the branch's axis.
+
+    The axis is touched by two arcs of the branch down to the height of its near side, and by one
+    further down to that of its far side, where the flat sheet of the edge with itself begins.
+    """
+    tee = region_of("offset tee")
+    edge = "branch.side|run.side"
+    flat, bent = sorted(tee.sheets(edge, edge), key=lambda sheet: sheet.area)
+    (seam,) = tee.parts.seams
+    assert tee.names(seam.sites) == (edge,)
+    patches = tee.skeleton.complex.patches
+    on_flat = tee.points[np.unique(patches[flat.patch].triangles)]
+    assert on_flat[:, 0] == pytest.approx(0, abs=1e-12)
+    heights = sorted(float(tee.points[j.vertex, 2]) for j in tee.parts.junctions)
+    assert any(z == pytest.approx(0.96**0.5, abs=1e-8) for z in heights)
+    assert on_flat[:, 2].max() == pytest.approx(0.96**0.5, abs=1e-8)
+    # it is its own mirror image
+    on_bent = tee.points[np.unique(patches[bent.patch].triangles)]
+    assert on_bent[:, 0].max() == pytest.approx(0.5, abs=1e-9)
+    assert on_bent[:, 0].min() == pytest.approx(-0.5, abs=1e-9)
+
+
 def test_square_boss() -> None:
     """Under the boss run sheets between two edges of one face; below its corners they end freely.
 

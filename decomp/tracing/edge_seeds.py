@@ -1,0 +1,149 @@
+"""Points on seams, found from the footprints of curved reentrant edges.
+
+A ball that touches a reentrant edge is known by the place t along the edge and the direction of its
+centre, between the inward normals of the edge's two faces. Where its far foot jumps between two
+such balls, a seam passes. From the faces' footprints, see `seeds`, seams are not seen whose feet
+are all on edges, such as those at which an edge has three feet.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.boundary.topology import Convexity, Edge, RegionBoundary
+from decomp.curves.circle import Circle
+from decomp.curves.line import Line
+from decomp.tracing.balls import Balls, balls_at
+from decomp.tracing.queries import RegionQueries
+from decomp.tracing.shrinking import OSCULATES, TOUCHES
+from decomp.vectors import Array, Bools, cross, dot, norm
+
+ALONG, ACROSS = 60, 15
+"""Balls along and across an edge's footprint for every `PER` samples of the boundary."""
+PER = 2000
+BISECTIONS = 24
+STEADY = 4.0
+"""A far foot that moves by no more than this multiple of the ball's own way has not jumped."""
+JUMP = 50.0
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeFan:
+    """The balls that touch an edge, by their coordinates.
+
+    Args:
+        boundary: of the region.
+        edge: reentrant.
+    """
+
+    boundary: RegionBoundary
+    edge: Edge
+
+    def place(self, spots: Array) -> tuple[Array, Array]:
+        """Feet and directions (k, 3) at spots (k, 2): parts of the edge, and of the angle."""
+        edge, curve = self.edge, self.edge.curve
+        t = curve.wrapped(edge.start + spots[:, 0] * (edge.end - edge.start))
+        feet, along = curve.point(t), curve.derivative(t)
+        along = along / norm(along)[:, None]
+        one, other = (self._inward(number, feet) for number in edge.faces)
+        side = cross(along, one)
+        angle = spots[:, 1] * np.arctan2(dot(other, side), dot(other, one))
+        return feet, np.cos(angle)[:, None] * one + np.sin(angle)[:, None] * side
+
+    def _inward(self, number: int, points: Array) -> Array:
+        face = self.boundary.faces[number]
+        return np.asarray(-face.outward * self.boundary.carriers[face.carrier].normal(points))
+
+
+def edge_jumps(
+    boundary: RegionBoundary, queries: RegionQueries, samples: int, rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """Points (k, 3) close to seams and three of their feet (k, 3, 3), as seen from curved edges.
+
+    Args:
+        boundary: of the region.
+        queries: in it.
+        samples: the more, the finer the footprints are searched.
+        rng: random numbers that place the balls.
+    """
+    points, feet = [np.empty((0, 3))], [np.empty((0, 3, 3))]
+    for edge in boundary.edges:
+        if edge.convexity is Convexity.REENTRANT and not isinstance(edge.curve, (Line, Circle)):
+            found = _jumps(EdgeFan(boundary, edge), queries, samples, rng)
+            points.append(found[0])
+            feet.append(found[1])
+    return np.concatenate(points), np.concatenate(feet)
+
+
+def _jumps(
+    fan: EdgeFan, queries: RegionQueries, samples: int, rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """The same for one edge: neighbours are brought together where the far foot jumps."""
+
+    def balls(spots: Array) -> tuple[Balls, Array]:
+        feet, ways = fan.place(spots)
+        found, state = balls_at(queries, feet, ways, queries.size)
+        found.site[(state != TOUCHES) & (state != OSCULATES)] = -2
+        return found, feet
+
+    finer = np.sqrt(samples / PER)
+    shape = (max(4, int(ALONG * finer)), max(3, int(ACROSS * finer)))
+    cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1)
+    spots = ((cells + 0.2 + 0.6 * rng.random(cells.shape)) / shape).reshape(-1, 2)
+    number = np.arange(len(spots)).reshape(shape)
+    pairs = [(number[:-1], number[1:]), (number[:, :-1], number[:, 1:])]
+    one = np.concatenate([a.ravel() for a, _ in pairs])
+    other = np.concatenate([b.ravel() for _, b in pairs])
+    every, at = balls(spots)
+    first, second = spots[one], spots[other]
+    low, high = (_rows(every, at, rows) for rows in (one, other))
+    keep = _differ(low, high)
+    for _ in range(BISECTIONS):
+        first, second = first[keep], second[keep]
+        low, high = (_rows(*side, keep) for side in (low, high))
+        if not len(first):
+            return np.empty((0, 3)), np.empty((0, 3, 3))
+        middle = (first + second) / 2
+        new, near = balls(middle)
+        upper = norm(new.foot - low[0].foot) <= norm(new.foot - high[0].foot)
+        first = np.where(upper[:, None], middle, first)
+        second = np.where(upper[:, None], second, middle)
+        low, high = _chosen(upper, (new, near), low), _chosen(upper, high, (new, near))
+        keep = _differ(low, high)
+    low, high = _rows(*low, keep), _rows(*high, keep)
+    gap = norm(low[0].foot - high[0].foot)
+    good = gap > JUMP * _way(low, high)
+    feet = np.stack([low[1], low[0].foot, high[0].foot], axis=1)[good]
+    return low[0].centre[good], feet
+
+
+_Side = tuple[Balls, Array]
+"""Balls and their near feet (k, 3)."""
+
+
+def _way(low: _Side, high: _Side) -> Array:
+    return np.asarray(norm(low[1] - high[1]) + norm(low[0].centre - high[0].centre))
+
+
+def _differ(low: _Side, high: _Side) -> Bools:
+    """Whether the far foot moves farther than the balls' own ways explain."""
+    known = (low[0].site > -2) & (high[0].site > -2)
+    return np.asarray(known & (norm(low[0].foot - high[0].foot) > STEADY * _way(low, high)))
+
+
+def _rows(balls: Balls, near: Array, which: Array | Bools) -> _Side:
+    chosen = Balls(balls.centre[which], balls.radius[which], balls.site[which], balls.foot[which])
+    return chosen, near[which]
+
+
+def _chosen(first: Bools, a: _Side, b: _Side) -> _Side:
+    one, other = a[0], b[0]
+    balls = Balls(
+        np.where(first[:, None], one.centre, other.centre),
+        np.where(first, one.radius, other.radius),
+        np.where(first, one.site, other.site),
+        np.where(first[:, None], one.foot, other.foot),
+    )
+    return balls, np.where(first[:, None], a[1], b[1])
