@@ -102,6 +102,14 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
     kind.add_argument("--ascii", action="store_true", help=".msh 4.1 as text (default: binary)")
     kind.add_argument("--msh2", action="store_true", help=".msh in Gmsh's format 2.2, as text")
     group.add_argument(
+        "--fields",
+        type=lambda text: text.split(","),
+        default=[],
+        metavar="NAME,...",
+        help="write values into .vtu and .msh: distance and thickness at nodes; nearest (surface), "
+        "cell and region of tetrahedra",
+    )
+    group.add_argument(
         "--report", type=Path, metavar="FILE.json", help="write all figures to a JSON file"
     )
     group.add_argument(
@@ -115,13 +123,18 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
+    from decomp.errors import InputError
     from decomp.output.mesh import suffix_of, write
     from decomp.output.whole_file import check_target, write_whole
+    from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
     outputs = options.output or [Path(options.model.with_suffix(".msh").name)]
+    suffixes = {suffix_of(path) for path in outputs}
+    checked_fields(options.fields)
+    if options.fields and not suffixes & {".msh", ".vtu"}:
+        raise InputError("--fields are written into .msh and .vtu files; give one with -o")
     for path in outputs:
-        suffix_of(path)
         check_target(path)
     if options.report is not None:
         check_target(options.report)
@@ -164,6 +177,7 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
             cells=options.cells,
             volumes=options.volumes,
             sheets=options.sheets,
+            fields=options.fields,
             timeout=options.timeout,
             progress=stages,
         )
