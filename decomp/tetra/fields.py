@@ -24,7 +24,7 @@ from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
 from decomp.tetra.cells import site_owners
 from decomp.tetra.convert import region_names
-from decomp.tetra.mesh import TetMesh
+from decomp.tetra.mesh import GroupKind, TetMesh
 from decomp.tracing.balls import inscribed_balls
 from decomp.vectors import Array, Ints, norm
 
@@ -98,10 +98,10 @@ def thickness(geometry: Geometry, mesh: TetMesh) -> Array:
     way = centre[owner[shallow]] - points[shallow]
     points[shallow] += 2 * inside * way / norm(way)[:, None]
     found = index.nearest(points)
-    result = np.zeros(len(points))
+    result, sites = np.zeros(len(points)), found.site.astype(np.int64)
     for number, boundary in enumerate(geometry.regions):
         rows = np.flatnonzero((found.region == number) & (found.distance > 0))
-        inward = _inward(geometry, boundary, points[rows], found.foot[rows], found.site[rows])
+        inward = _inward(geometry, boundary, points[rows], found.foot[rows], sites[rows])
         balls = inscribed_balls(index, boundary, number, found.foot[rows], inward)
         result[rows] = 2 * np.maximum(balls.radius, found.distance[rows])
     return result
@@ -124,7 +124,8 @@ def _inward(
 
 def nearest_surfaces(geometry: Geometry, mesh: TetMesh) -> Ints:
     """The tag (m,) of the surface group that is nearest to each tetrahedron's centroid."""
-    tags = {part: g.tag for g in mesh.groups if g.dimension == 2 for part in g.name.split("|")}
+    outer = [g for g in mesh.groups if g.kind in (GroupKind.FACE, GroupKind.INTERFACE)]
+    tags = {part: group.tag for group in outer for part in group.name.split("|")}
     owner = site_owners(geometry.sites, geometry.regions)
     table = np.full(len(geometry.sites), -1, dtype=np.int64)
     for number, site in enumerate(geometry.sites):

@@ -60,7 +60,7 @@ def test_thickness() -> None:
 def test_numbers_of_tetrahedra() -> None:
     mesh = tube()
     names = {g.tag: g.name for g in mesh.groups if g.dimension == 2}
-    wall = ("solid/outer.side", "solid/hole.side", "solid/outer.bottom", "solid/outer.top")
+    wall = ("solid/outer.side", "solid/hole.side", "solid/outer.base", "solid/outer.top")
     index = {name: k for k, name in enumerate(wall)}
     found = [index[names[tag]] for tag in mesh.cell_data["nearest"].tolist()]
     exact = walls(mesh.points[mesh.tets].mean(axis=1))
@@ -88,8 +88,8 @@ def test_gmsh_reads_them(text: bool, version: str, tmp_path: Path) -> None:
             assert value == pytest.approx(abs(walls(at[int(tag)][None]).min()), abs=1e-12)
         kind, tags, values = views["cell"][:3]
         assert kind == "ElementData"
-        assert len(tags) == len(mesh.tets)
-        for tag, value in list(zip(tags, values, strict=True))[::97]:
+        assert len(tags) == len(mesh.triangles) + len(mesh.tets)
+        for tag, value in list(zip(tags, values, strict=True))[len(mesh.triangles) :: 97]:
             entity = gmsh.model.mesh.getElement(tag)[3]
             assert entity == value
 

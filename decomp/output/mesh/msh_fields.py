@@ -13,6 +13,9 @@ ROW = np.dtype([("tag", "<i4"), ("value", "<f8")])
 def fields(mesh: TetMesh, text: bool, by_tag: bool) -> bytes:
     """The sections of all fields of a mesh; tetrahedra are numbered after the triangles.
 
+    Triangles have -1 where tetrahedra have values, as meshio reads no file in which elements lack
+    any.
+
     Args:
         mesh: with fields, or without.
         text: whether numbers are written as words.
@@ -22,10 +25,11 @@ def fields(mesh: TetMesh, text: bool, by_tag: bool) -> bytes:
         _section("NodeData", name, np.arange(1, len(values) + 1), values, text)
         for name, values in mesh.point_data.items()
     ]
-    numbers = np.arange(1, len(mesh.tets) + 1) + len(mesh.triangles)
+    numbers = np.arange(1, len(mesh.triangles) + len(mesh.tets) + 1)
+    none = np.full(len(mesh.triangles), -1.0)
     rows = np.argsort(mesh.tet_tags, kind="stable") if by_tag else np.arange(len(mesh.tets))
     parts += [
-        _section("ElementData", name, numbers, values[rows].astype(np.float64), text)
+        _section("ElementData", name, numbers, np.concatenate([none, values[rows]]), text)
         for name, values in mesh.cell_data.items()
     ]
     return b"".join(parts)
