@@ -14,11 +14,10 @@ CATEGORIES = (
     "#56B4E9",
     "#D55E00",
     "#F0E442",
-    "#999999",
+    "#4D4D4D",
 )
-VALUES = (
-    "#00224E", "#213D6B", "#434E6C", "#5D616F", "#757575", "#8F8B73", "#B2A267", "#D8BF52", "#FDEA45",
-)  # fmt: skip
+_CIVIDIS = "#00224E #213D6B #434E6C #5D616F #757575 #8F8B73 #B2A267 #D8BF52 #FDEA45"
+VALUES = tuple(_CIVIDIS.split())
 
 
 def rgb(colour: str) -> tuple[float, float, float]:
