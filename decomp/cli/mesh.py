@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +23,7 @@ examples:
   decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
   decomp mesh part.geo --volumes regions --no-sheets
                                                 one volume per region, no inner surfaces
+  decomp mesh *.geo -o meshes --jobs 2          many models, two at a time, with a table
   decomp mesh part.geo --report part.json       figures for programs too
 """
 TIMEOUT = 600.0
@@ -39,8 +42,23 @@ def register(commands: Any) -> None:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument(
+        "models",
+        type=Path,
+        nargs="+",
+        metavar="MODEL",
+        help="Netgen .geo, OpenSCAD .csg or decomp .json; of several, -o names a directory",
+    )
     add_output(parser, SUFFIXES, " (default: the model's name with .msh, in this directory)")
+    parser.add_argument(
+        "--jobs", type=_count, default=1, metavar="N", help="of several models, N at a time"
+    )
+    parser.add_argument(
+        "--format",
+        choices=[suffix[1:] for suffix in SUFFIXES],
+        default="msh",
+        help="of several models: what is written (default msh)",
+    )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _size_options(parser)
     _tag_options(parser)
@@ -124,11 +142,17 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
     from decomp.errors import InputError
-    from decomp.output.mesh import suffix_of, write
+    from decomp.output.mesh import suffix_of
     from decomp.output.whole_file import check_target, write_whole
     from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
+    if len(options.models) > 1 or any(path.is_dir() for path in options.output):
+        from decomp.cli import batch
+
+        batch.run(options)
+        return
+    options.model = options.models[0]
     outputs = options.output or [Path(options.model.with_suffix(".msh").name)]
     suffixes = {suffix_of(path) for path in outputs}
     checked_fields(options.fields)
@@ -139,8 +163,7 @@ def run(options: argparse.Namespace) -> None:
     if options.report is not None:
         check_target(options.report)
     mesh, figures = meshed(options)
-    for path in outputs:
-        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
+    written(mesh, options, outputs)
     if options.report is not None:
         text = json.dumps(as_json(figures), indent=1, ensure_ascii=False) + "\n"
         write_whole(options.report, text.encode())
@@ -149,8 +172,22 @@ def run(options: argparse.Namespace) -> None:
         print(f"  written: {', '.join(str(path) for path in outputs)}")
 
 
-def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
+def written(mesh: TetMesh, options: argparse.Namespace, outputs: Sequence[Path]) -> None:
+    """Write a mesh to files as the options say."""
+    from decomp.output.mesh import write
+
+    for path in outputs:
+        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
+
+
+def meshed(
+    options: argparse.Namespace, told: Callable[[str, float], None] | None = None
+) -> tuple[TetMesh, Report]:
     """Load the model and mesh it, with signs of life.
+
+    Args:
+        options: of the command.
+        told: what is being done and how far it is; by default a bar on stderr is.
 
     Raises:
         DecompError: the model cannot be read, is no solid, or cannot be meshed.
@@ -162,7 +199,7 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
     from decomp.meshing import mesh
     from decomp.tetra.report import report
 
-    with reporting(options.quiet) as tell:
+    with nullcontext(told) if told else reporting(options.quiet) as tell:
         stages = Stages(tell)
         stages("reading", 0.0)
         model = load(options.model)
