@@ -1,4 +1,4 @@
-"""Runs all examples and writes their figures into the table of README.md, with the plot beside it."""
+"""Runs all examples; writes their figures into the table of README.md, and the plot beside it."""
 
 from __future__ import annotations
 
@@ -48,9 +48,8 @@ def main() -> None:
     page = HERE / "README.md"
     text = page.read_text()
     table = "\n".join(["<!-- table -->", *lines, "<!-- end -->"])
-    page.write_text(
-        re.sub(r"<!-- table -->.*?<!-- end -->", lambda _: table, text, flags=re.DOTALL)
-    )
+    old = re.compile(r"<!-- table -->.*?<!-- end -->", re.DOTALL)
+    page.write_text(old.sub(lambda _: table, text))
 
 
 if __name__ == "__main__":

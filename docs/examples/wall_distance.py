@@ -1,8 +1,8 @@
 """Distance to the wall and thickness as fields, and the mid-surface, of a tapered wedge.
 
-A wedge between two planes that meet at the angle 2 a in the line x = z = 0: at the place (x, z) the
-nearer plane is x sin a - |z| cos a away; on the plane z = 0 the wall is 2 x sin a thick (the diameter
-of the ball there), and its feet are seen at 180 degrees - 2 a.
+A wedge between two planes that meet at the angle 2 a in the line x = z = 0: at the place (x, z)
+the nearer plane is x sin a - |z| cos a away; on the plane z = 0 the wall is 2 x sin a thick (the
+diameter of the ball there), and its feet are seen at 180 degrees - 2 a.
 """
 
 from __future__ import annotations
@@ -41,4 +41,5 @@ def errors() -> tuple[float, float, float]:
 
 
 if __name__ == "__main__":
-    print("distance off by %.1e, thickness by %.1e, mid-surface by %.1e" % errors())
+    distance, thickness, middle = errors()
+    print(f"off: distance {distance:.1e}, thickness {thickness:.1e}, mid-surface {middle:.1e}")
