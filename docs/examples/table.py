@@ -33,7 +33,7 @@ def rows() -> list[tuple[str, str, str, str, str]]:
     modes = sphere_modes.eigenvalues(0.3)
     for k in (0, 3):
         add("sphere_modes", f"eigenvalue {k + 1}", modes[k], sphere_modes.EXACT[k])
-    add("plate", "stress concentration", plate.concentration(1.0, 36), plate.EXACT)
+    add("plate", "stress concentration", plate.concentration(1.0, 60), plate.EXACT)
     names = ("largest error of the distance", "... of the thickness", "... of the mid-surface")
     for what, error in zip(names, wall_distance.errors(), strict=True):
         found.append(("wall_distance", what, f"{error:.0e}", "0", ""))
