@@ -53,8 +53,9 @@ def run(options: argparse.Namespace) -> None:
         FileError: the directory cannot be made.
         DecompError: a model failed; the others are written.
     """
-    if options.report is not None:
-        raise InputError("--report is for one model; a batch prints a table")
+    for name in ("report", "html"):
+        if getattr(options, name) is not None:
+            raise InputError(f"--{name} is for one model; a batch prints a table")
     folder = _folder(options.output)
     targets = [folder / f"{model.stem}.{options.format}" for model in options.models]
     for k, target in enumerate(targets):

@@ -131,6 +131,12 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         "--report", type=Path, metavar="FILE.json", help="write all figures to a JSON file"
     )
     group.add_argument(
+        "--html",
+        type=Path,
+        metavar="FILE.html",
+        help="write a page with tables, histograms of quality, and times",
+    )
+    group.add_argument(
         "--timeout",
         type=positive,
         default=TIMEOUT,
@@ -160,13 +166,18 @@ def run(options: argparse.Namespace) -> None:
         raise InputError("--fields are written into .msh and .vtu files; give one with -o")
     for path in outputs:
         check_target(path)
-    if options.report is not None:
-        check_target(options.report)
+    for path in (options.report, options.html):
+        if path is not None:
+            check_target(path)
     mesh, figures = meshed(options)
     written(mesh, options, outputs)
     if options.report is not None:
         text = json.dumps(as_json(figures), indent=1, ensure_ascii=False) + "\n"
         write_whole(options.report, text.encode())
+    if options.html is not None:
+        from decomp.view import report_page
+
+        write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
         print("\n".join(as_text(figures)))
         print(f"  written: {', '.join(str(path) for path in outputs)}")
