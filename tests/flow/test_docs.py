@@ -56,6 +56,16 @@ def test_the_command_reference_is_the_codes() -> None:
     assert page == made, "run: python docs/command_reference.py"
 
 
+def test_a_file_of_another_program(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a newcomer may try is told what can be read, not which byte is odd."""
+    path = tmp_path / "part.step"
+    path.write_bytes(b"\x89\xff\x00binary")
+    assert main(["mesh", str(path)]) == 2
+    message = capsys.readouterr().err
+    assert "part.step: this is no text that describes a model" in message
+    assert ".geo" in message
+
+
 def test_the_site_builds(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
     pytest.importorskip("material")

@@ -125,7 +125,7 @@ def test_two_regions_and_second_order() -> None:
     """Nodes of the interface are on the boundary of both; centroids know their own region."""
     box = decomp.Block((0, 0, 0), (2, 1, 1), name="box")
     ball = decomp.Sphere((0.5, 0.5, 0.5), 0.3, name="ball")
-    mesh = decomp.mesh({"in": ball, "out": box - ball}, size=0.4, order=2, fields=FIELDS)
+    mesh = decomp.mesh({"in": ball, "out": box - ball}, size=0.5, order=2, fields=FIELDS)
     away = np.linalg.norm(mesh.points - 0.5, axis=1)
     on = np.unique(
         mesh.triangles[
