@@ -52,7 +52,11 @@ def test_thickness() -> None:
     clear = on_wall & (near[:, 1] - near[:, 0] > 1e-6)
     found = mesh.point_data["thickness"]
     assert clear.sum() > 100
-    assert np.abs(found - exact)[clear].max() < 1e-4
+    off = np.abs(found - exact)
+    assert off[clear & inner].max() < 1e-9
+    # at nodes on the boundary it is asked 2e-5 diagonals inside, which may be as far along the wall
+    diagonal = np.sqrt(2 * (2 * OUTER) ** 2 + LENGTH**2)
+    assert off[clear].max() < 2 * 2e-5 * diagonal
     assert (found[inner] >= 2 * mesh.point_data["distance"][inner] - 1e-12).all()
     assert found.max() <= gap + 1e-9
 
