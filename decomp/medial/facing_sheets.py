@@ -15,6 +15,9 @@ from decomp.medial.sheet_surface import CLEAR, SheetSurface
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, dot, nearest_rows, norm
 
+ASIDE = 2
+"""So many samples beside the nearest one feet are looked for too."""
+
 
 class FacingSheet(Protocol):
     """A sheet's exact surface."""
@@ -54,17 +57,20 @@ class MirrorSheet:
         return np.where(lost, np.nan, 2 * np.arctan2(across, along)), radius
 
     def _feet(self, points: Array) -> Array:
-        """The nearest feet (k, 3): where Newton's method has left the nearest, from all samples."""
+        """The nearest feet (k, 3), looked for from the nearest sample and from both sides of it.
+
+        Over a place where the edge turns away, Newton's method stays there: it is no nearest point.
+        """
         it = self.incidence
-        found = it.feet((self.site,), points)[:, 0]
         samples = it.boundary.edges[it.sites[self.site].index].samples
-        known = samples[nearest_rows(samples, points)]
-        size = CLEAR * it.boundary.diagonal
-        which = np.full(len(samples), self.site, dtype=np.int64)
-        for row in np.flatnonzero(norm(found - points) > norm(known - points) - size):
-            at = np.repeat(points[row][None], len(samples), axis=0)
-            field = site_fields(it.boundary, it.sites, which, at, samples)
-            found[row] = field.foot[np.argmin(field.distance)]
+        nearest = nearest_rows(samples, points)
+        which = np.full(len(points), self.site, dtype=np.int64)
+        found, least = np.zeros_like(points), np.full(len(points), np.inf)
+        for step in (0, -ASIDE, ASIDE):
+            start = samples[(nearest + step) % len(samples)]
+            field = site_fields(it.boundary, it.sites, which, points, start)
+            nearer = field.distance < least
+            found[nearer], least[nearer] = field.foot[nearer], field.distance[nearer]
         return found
 
 

@@ -19,6 +19,7 @@ from scipy.integrate import quad
 import decomp
 from decomp.cli.main import main
 from decomp.errors import InputError
+from tests.skeleton.computed import skeleton_of, source_of
 from tests.skeleton_fixtures import block
 
 HALF, RADIUS, DEPTH = 1.5, 0.5, 6.0
@@ -142,3 +143,12 @@ def test_where_no_walls_face_each_other(tmp_path: Path, capsys: pytest.CaptureFi
     model.write_text("algebraic3d\nsolid p = orthobrick (0,0,0; 1,1,1);\ntlo p;\n")
     assert main(["skeleton", str(model), "--facing", "120"]) == 0
     assert "empty; no walls face each other so much" in capsys.readouterr().out
+
+
+def test_sheets_of_an_edge_with_itself() -> None:
+    """Where equal pipes cross; over an edge's turning points the nearest feet lie beside it."""
+    skeleton = skeleton_of("equal tee")
+    surface = decomp.mid_surface(skeleton, 105.0)
+    assert (surface.sites[:, 0] == surface.sites[:, 1]).any()
+    distance = decomp.Geometry(source_of("equal tee")).distance(surface.points)
+    assert surface.thickness == pytest.approx(-2 * distance, abs=1e-9)
