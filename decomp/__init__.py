@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from decomp.formats import load as load
     from decomp.formats import save as save
     from decomp.geometry import Geometry as Geometry
+    from decomp.medial.facing import MidSurface as MidSurface
+    from decomp.medial.facing import mid_surface as mid_surface
     from decomp.medial.result import Skeleton as Skeleton
     from decomp.meshing import mesh as mesh
     from decomp.tetra.mesh import TetMesh as TetMesh
@@ -62,6 +64,7 @@ _HOMES = {
     "decomp.errors": ("DecompError",),
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
+    "decomp.medial.facing": ("MidSurface", "mid_surface"),
     "decomp.medial.result": ("Skeleton",),
     "decomp.meshing": ("mesh",),
     "decomp.tetra.mesh": ("TetMesh",),

@@ -8,7 +8,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal
 
@@ -25,6 +25,7 @@ from decomp.tetra.classify import classified
 from decomp.tetra.conforming import conformed
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
+from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
 from decomp.tetra.mesh import TetMesh
@@ -57,6 +58,7 @@ def mesh(
     cells: Literal["skeleton", "face"] = "skeleton",
     volumes: Literal["cells", "regions"] = "cells",
     sheets: bool = True,
+    fields: Sequence[str] = (),
     timeout: float = 600.0,
     progress: Progress | None = None,
 ) -> TetMesh:
@@ -71,6 +73,8 @@ def mesh(
         cells: `skeleton`, or `face` for one cell for each boundary face.
         volumes: `cells`, or `regions` for one physical volume for each region.
         sheets: whether triangles between the cells of a region are tagged.
+        fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
+            (`decomp.tetra.fields`).
         timeout: seconds that TetWild may take.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
@@ -89,6 +93,7 @@ def mesh(
     ):
         if value not in allowed:
             raise InputError(f"{what} must be one of {allowed}, got {value!r}")
+    asked = checked_fields(fields)
     wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what, done: tell(what, SURFACE * done))
     sizes = region_sizes(geometry, wanted)
@@ -128,7 +133,7 @@ def mesh(
         solid, tet_tags = cell_groups(geometry, known), known.cell_of(part) + 1
     else:
         solid, tet_tags = region_groups(geometry), known.region_of(part) + 1
-    return TetMesh(
+    result = TetMesh(
         geometry.model.name,
         points,
         tets,
@@ -138,6 +143,7 @@ def mesh(
         (*solid, *groups),
         left,
     )
+    return with_fields(geometry, result, asked, known.cell_of(part) + 1) if asked else result
 
 
 def _surface(

@@ -17,9 +17,11 @@ TOLERANCE = 5e-4
 LARGEST = 0.1
 
 
-def add_options(parser: argparse.ArgumentParser) -> None:
+def add_options(
+    parser: argparse.ArgumentParser, files: str = "Netgen .geo, OpenSCAD .csg or decomp .json"
+) -> None:
     """The options that say which skeleton to compute, and how loudly."""
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument("model", type=Path, help=files)
     parser.add_argument(
         "--tolerance",
         type=_tolerance,

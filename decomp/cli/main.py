@@ -6,7 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
-from decomp.cli import cells, check, convert, describe, info, mesh, skeleton
+from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -19,10 +19,11 @@ examples:
   decomp skeleton part.geo -o part.vtu its skeleton, for ParaView
   decomp describe part.geo             what surface every sheet of it lies on
   decomp cells part.geo -o cells       the parts into which the skeleton cuts it
+  decomp view part.geo -o part.html    a page to turn, slice and explode it
 """
 
 INTERRUPTED = 130
-COMMANDS = (mesh, check, info, skeleton, describe, cells, convert)
+COMMANDS = (mesh, check, info, skeleton, describe, cells, view, convert)
 
 
 def parser() -> argparse.ArgumentParser:

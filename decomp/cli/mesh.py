@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +23,7 @@ examples:
   decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
   decomp mesh part.geo --volumes regions --no-sheets
                                                 one volume per region, no inner surfaces
+  decomp mesh *.geo -o meshes --jobs 2          many models, two at a time, with a table
   decomp mesh part.geo --report part.json       figures for programs too
 """
 TIMEOUT = 600.0
@@ -39,8 +42,23 @@ def register(commands: Any) -> None:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument(
+        "models",
+        type=Path,
+        nargs="+",
+        metavar="MODEL",
+        help="Netgen .geo, OpenSCAD .csg or decomp .json; of several, -o names a directory",
+    )
     add_output(parser, SUFFIXES, " (default: the model's name with .msh, in this directory)")
+    parser.add_argument(
+        "--jobs", type=_count, default=1, metavar="N", help="of several models, N at a time"
+    )
+    parser.add_argument(
+        "--format",
+        choices=[suffix[1:] for suffix in SUFFIXES],
+        default="msh",
+        help="of several models: what is written (default msh)",
+    )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _size_options(parser)
     _tag_options(parser)
@@ -102,7 +120,21 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
     kind.add_argument("--ascii", action="store_true", help=".msh 4.1 as text (default: binary)")
     kind.add_argument("--msh2", action="store_true", help=".msh in Gmsh's format 2.2, as text")
     group.add_argument(
+        "--fields",
+        type=lambda text: text.split(","),
+        default=[],
+        metavar="NAME,...",
+        help="write values into .vtu and .msh: distance and thickness at nodes; nearest (surface), "
+        "cell and region of tetrahedra",
+    )
+    group.add_argument(
         "--report", type=Path, metavar="FILE.json", help="write all figures to a JSON file"
+    )
+    group.add_argument(
+        "--html",
+        type=Path,
+        metavar="FILE.html",
+        help="write a page with tables, histograms of quality, and times",
     )
     group.add_argument(
         "--timeout",
@@ -115,29 +147,58 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
-    from decomp.output.mesh import suffix_of, write
+    from decomp.errors import InputError
+    from decomp.output.mesh import suffix_of
     from decomp.output.whole_file import check_target, write_whole
+    from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
+    if len(options.models) > 1 or any(path.is_dir() for path in options.output):
+        from decomp.cli import batch
+
+        batch.run(options)
+        return
+    options.model = options.models[0]
     outputs = options.output or [Path(options.model.with_suffix(".msh").name)]
+    suffixes = {suffix_of(path) for path in outputs}
+    checked_fields(options.fields)
+    if options.fields and not suffixes & {".msh", ".vtu"}:
+        raise InputError("--fields are written into .msh and .vtu files; give one with -o")
     for path in outputs:
-        suffix_of(path)
         check_target(path)
-    if options.report is not None:
-        check_target(options.report)
+    for path in (options.report, options.html):
+        if path is not None:
+            check_target(path)
     mesh, figures = meshed(options)
-    for path in outputs:
-        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
+    written(mesh, options, outputs)
     if options.report is not None:
         text = json.dumps(as_json(figures), indent=1, ensure_ascii=False) + "\n"
         write_whole(options.report, text.encode())
+    if options.html is not None:
+        from decomp.view import report_page
+
+        write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
         print("\n".join(as_text(figures)))
         print(f"  written: {', '.join(str(path) for path in outputs)}")
 
 
-def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
+def written(mesh: TetMesh, options: argparse.Namespace, outputs: Sequence[Path]) -> None:
+    """Write a mesh to files as the options say."""
+    from decomp.output.mesh import write
+
+    for path in outputs:
+        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
+
+
+def meshed(
+    options: argparse.Namespace, told: Callable[[str, float], None] | None = None
+) -> tuple[TetMesh, Report]:
     """Load the model and mesh it, with signs of life.
+
+    Args:
+        options: of the command.
+        told: what is being done and how far it is; by default a bar on stderr is.
 
     Raises:
         DecompError: the model cannot be read, is no solid, or cannot be meshed.
@@ -149,7 +210,7 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
     from decomp.meshing import mesh
     from decomp.tetra.report import report
 
-    with reporting(options.quiet) as tell:
+    with nullcontext(told) if told else reporting(options.quiet) as tell:
         stages = Stages(tell)
         stages("reading", 0.0)
         model = load(options.model)
@@ -164,6 +225,7 @@ def meshed(options: argparse.Namespace) -> tuple[TetMesh, Report]:
             cells=options.cells,
             volumes=options.volumes,
             sheets=options.sheets,
+            fields=options.fields,
             timeout=options.timeout,
             progress=stages,
         )

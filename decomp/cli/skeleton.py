@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from decomp.cli.arguments import add_output
 
 if TYPE_CHECKING:
+    from decomp.medial.facing import MidSurface
     from decomp.medial.result import Certificate, RegionSkeleton, Skeleton
 
 
@@ -23,10 +24,18 @@ def register(commands: Any) -> None:
         help="the exact interior skeleton (medial axis) of each region",
         description="Compute the interior skeleton of a CSG model: sheets, seams, junctions and "
         "reflexive curves, with a certificate of what was measured on it. Without -o it is only "
-        "told what it has.",
+        "told what it has. With --facing, -o takes its mid-surface: the parts that lie between "
+        "walls which face each other, with the thickness at every point.",
     )
     add_options(parser)
-    add_output(parser, SUFFIXES)
+    add_output(parser, SUFFIXES, "; with --facing .vtu, .ply, .obj or .stl")
+    parser.add_argument(
+        "--facing",
+        type=_angle,
+        metavar="DEG",
+        help="keep only what sees its two nearest boundary points more than DEG degrees apart "
+        "(120 is usual), cut exactly there: the mid-surface of thin parts",
+    )
     parser.add_argument("--boundary", action="store_true", help="write the boundary's faces too")
     parser.add_argument("--trims", action="store_true", help="write the trim surfaces too")
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
@@ -42,6 +51,9 @@ def run(options: argparse.Namespace) -> None:
     from decomp.output import suffix_of, write
     from decomp.output.whole_file import check_target
 
+    if options.facing is not None:
+        _run_facing(options)
+        return
     for path in options.output:
         suffix_of(path)
         check_target(path)
@@ -54,6 +66,44 @@ def run(options: argparse.Namespace) -> None:
         print(json.dumps(contents(skeleton), indent=1))
     elif not options.quiet:
         print("\n".join(as_text(skeleton, options.tolerance, options.certificate)))
+
+
+def _run_facing(options: argparse.Namespace) -> None:
+    """The same for the mid-surface."""
+    from decomp.cli.computing import computed
+    from decomp.errors import InputError
+    from decomp.medial.facing import mid_surface
+    from decomp.output.mid_surface import suffix_of
+    from decomp.output.whole_file import check_target
+
+    for name in ("boundary", "trims", "json"):
+        if getattr(options, name):
+            raise InputError(f"--facing writes sheets alone; leave --{name} away")
+    for path in options.output:
+        suffix_of(path)
+        check_target(path)
+    skeleton = computed(options)
+    surface = mid_surface(skeleton, options.facing)
+    for path in options.output:
+        surface.write(path)
+    if not options.quiet:
+        print("\n".join(as_text(skeleton, options.tolerance, options.certificate)))
+        print("\n".join(["", *mid_text(surface)]))
+
+
+def mid_text(surface: MidSurface) -> list[str]:
+    """What a mid-surface has, as lines for people."""
+    first = f"mid-surface, facing {surface.facing:g} degrees and more"
+    if not len(surface.triangles):
+        return [f"{first}: empty; no walls face each other so much"]
+    low, high = surface.thickness.min(), surface.thickness.max()
+    sheets = len(set(surface.sheet.tolist()))
+    return [
+        first,
+        f"  sheets     {sheets:>7}  area {surface.area:.9g}",
+        f"  triangles  {len(surface.triangles):>7}  points {len(surface.points)}",
+        f"  thickness           {low:.9g} to {high:.9g}",
+    ]
 
 
 def as_text(skeleton: Skeleton, tolerance: float, figures: bool) -> list[str]:
@@ -117,3 +167,13 @@ def _figures(certificate: Certificate, tolerance: float) -> list[str]:
             continue
         lines.append(line + ("  FAILS" if name in short else ""))
     return lines
+
+
+def _angle(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
+    if not 0 <= value < 180:
+        raise argparse.ArgumentTypeError(f"must be from 0 to less than 180, not {text}")
+    return value

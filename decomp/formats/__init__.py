@@ -118,6 +118,8 @@ def _text(data: bytes, file: Path, form: Format | None) -> str:
     except UnicodeDecodeError as error:
         if form == "geo" or (form is None and re.search(rb"\balgebraic3d\b", data)):
             return data.decode("latin-1")
+        if form is None and b"\0" in data:
+            raise ParseError(f"this is no text that describes a model; {EXPECTED}", file) from None
         before = data[: error.start]
         line = before.count(b"\n") + 1
         column = len(before[before.rfind(b"\n") + 1 :].decode("utf-8", "replace")) + 1

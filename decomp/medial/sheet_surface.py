@@ -12,7 +12,8 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.tracing.equidistance import equidistant
-from decomp.tracing.fields import site_fields
+from decomp.tracing.fields import Field, site_fields
+from decomp.tracing.loci import on_locus
 from decomp.tracing.supports import CURVE, support_table
 from decomp.vectors import Array, Bools, Ints, norm, place
 
@@ -125,14 +126,37 @@ class SheetSurface:
             length = norm(difference)
         return np.asarray(difference / length[:, None])
 
-    def _difference(self, points: Array, feet: Array) -> Array:
-        gradients = []
+    def facing(self, points: Array) -> tuple[Array, Array]:
+        """How the feet of points (k, 3) on the surface face each other, and how far they are.
+
+        Returns:
+            (k,) the angle in radians, from 0 to pi, at which the two feet are seen from the point;
+            nan where the point is on a site or has many feet on one; and (k,) the radius.
+        """
         it = self.incidence
-        for column, site in enumerate(self.sites):
-            which: Ints = np.full(len(points), site, dtype=np.int64)
-            field = site_fields(it.boundary, it.sites, which, points, feet[:, column])
-            gradients.append(field.gradient)
-        return np.asarray(gradients[0] - gradients[1])
+        one, two = self._fields(points, self._feet_near(points))
+        a, b = one.gradient, two.gradient
+        angle = 2 * np.arctan2(norm(a - b), norm(a + b))
+        lost = (norm(a) < CLEAR) | (norm(b) < CLEAR)
+        lost |= on_locus(it.boundary, it.sites, self.sites, points, CLEAR)
+        return np.where(lost, np.nan, angle), one.distance
+
+    def _difference(self, points: Array, feet: Array) -> Array:
+        one, two = self._fields(points, feet)
+        return np.asarray(one.gradient - two.gradient)
+
+    def _fields(self, points: Array, feet: Array) -> list[Field]:
+        it = self.incidence
+        return [
+            site_fields(
+                it.boundary,
+                it.sites,
+                np.full(len(points), site, dtype=np.int64),
+                points,
+                feet[:, column],
+            )
+            for column, site in enumerate(self.sites)
+        ]
 
     def _feet_near(self, points: Array) -> Array:
         """Feet (k, 2, 3) from which those of points are found, if a site's foot depends on them.

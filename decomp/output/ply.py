@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -16,13 +16,20 @@ Column = tuple[str, str, NDArray[Any]]
 """Name, type and values."""
 
 
-def encoded(parts: Elements) -> bytes:
-    """Triangles with their sheet and region, and the reflexive curves as edges."""
+def encoded(parts: Elements, at_points: Mapping[str, Array] | None = None) -> bytes:
+    """Triangles with their sheet and region, and the reflexive curves as edges.
+
+    Args:
+        parts: what the file holds.
+        at_points: further values of vertices, by name.
+    """
     count = len(parts.triangles)
     curves = parts.kind[count : count + len(parts.segments)] == KINDS.index("reflexive")
     segments = parts.segments[curves]
     extra = [("sheet", "<i4", parts.sheet[:count]), ("region", "<i4", parts.region[:count])]
-    vertices = [*_coordinates(parts.points), ("radius", "<f8", parts.radius)]
+    values = {"radius": parts.radius, **(at_points or {})}
+    vertices = _coordinates(parts.points)
+    vertices += [(name, "<f8", column) for name, column in values.items()]
     ends = [("vertex1", "<i4", segments[:, 0]), ("vertex2", "<i4", segments[:, 1])]
     return _file(vertices, parts.triangles, extra, ends if len(segments) else [])
 

@@ -42,7 +42,12 @@ def to_meshio(mesh: TetMesh) -> Any:
             (TRIANGLES[mesh.triangles.shape[1]], mesh.triangles),
             (TETS[mesh.tets.shape[1]], in_vtk_order(mesh.tets)),
         ],
-        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
+        point_data=dict(mesh.point_data),
+        cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags}
+        | {
+            name: [np.full(len(mesh.triangles), -1), values]
+            for name, values in mesh.cell_data.items()
+        },
         field_data={group.name: np.array([group.tag, group.dimension]) for group in ordered},
         cell_sets=sets,
     )
@@ -67,6 +72,10 @@ def to_pyvista(mesh: TetMesh) -> Any:
     regions = region_names(mesh)
     grid.cell_data["group"] = mesh.tet_tags
     grid.cell_data["region"] = region_numbers(mesh, 3)
+    for name, values in mesh.point_data.items():
+        grid.point_data[name] = values
+    for name, numbers in mesh.cell_data.items():
+        grid.cell_data[name] = numbers
     grid.field_data["names"] = [group.name for group in volumes]
     grid.field_data["tags"] = [group.tag for group in volumes]
     grid.field_data["regions"] = regions

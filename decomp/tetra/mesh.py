@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -72,6 +73,8 @@ class TetMesh:
         groups: those of dimension 3 first, each kind in ascending order of tags.
         unprojected: nodes on the boundary, interfaces or sheets that could not be moved onto their
             exact geometry without spoiling a tetrahedron; ascending.
+        point_data: (n,) values at nodes by name: the fields asked for, see `decomp.tetra.fields`.
+        cell_data: (m,) values of tetrahedra by name.
     """
 
     name: str
@@ -82,6 +85,8 @@ class TetMesh:
     triangle_tags: Ints
     groups: tuple[Group, ...]
     unprojected: Ints
+    point_data: Mapping[str, Array] = field(default_factory=dict)
+    cell_data: Mapping[str, Ints] = field(default_factory=dict)
 
     @property
     def order(self) -> int:

@@ -64,7 +64,7 @@ def test_what_is_nearer_hides_what_is_behind() -> None:
     for order in ([0, 1], [1, 0]):
         image, depth = np.ones((100, 100, 3)), np.full((100, 100), -np.inf)
         colours = np.array([[1.0, 0, 0], [0, 1, 0]])
-        picture._draw(np.array([far, near])[order], colours[order], image, depth)
+        picture.draw(np.array([far, near])[order], colours[order], image, depth)
         assert image[15, 15].tolist() == [0, 1, 0]
         assert image[30, 50].tolist() == [1, 0, 0]
         assert image[70, 70].tolist() == [1, 1, 1]

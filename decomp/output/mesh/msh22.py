@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from decomp.output.mesh.msh41 import TYPES
+from decomp.output.mesh.msh_fields import fields
 from decomp.output.mesh.names import physical_names
 from decomp.tetra.mesh import TetMesh
 from decomp.vectors import Ints
@@ -24,7 +25,12 @@ def encoded(mesh: TetMesh) -> bytes:
     lines += _elements(mesh.tets, mesh.tet_tags, len(mesh.triangles) + 1)
     lines += ["$EndElements", ""]
     head = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
-    return head + physical_names(mesh) + "\n".join(lines).encode()
+    return (
+        head
+        + physical_names(mesh)
+        + "\n".join(lines).encode()
+        + fields(mesh, text=True, by_tag=False)
+    )
 
 
 def _elements(elements: Ints, tags: Ints, first: int) -> Iterator[str]:

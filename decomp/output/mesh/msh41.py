@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.output.mesh.entities import Entities, entities
+from decomp.output.mesh.msh_fields import fields
 from decomp.output.mesh.names import physical_names
 from decomp.tetra.mesh import TetMesh
 from decomp.vectors import Array, Ints
@@ -73,6 +74,7 @@ def encoded(mesh: TetMesh, *, text: bool = False) -> bytes:
         _entities(mesh, placed, _Body(not text)),
         _nodes(mesh, placed, _Body(not text)),
         _elements(mesh, _Body(not text)),
+        fields(mesh, text, by_tag=True),
     ]
     return b"".join(parts)
 

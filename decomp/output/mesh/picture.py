@@ -34,12 +34,12 @@ def encoded(mesh: TetMesh) -> bytes:
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normal /= np.maximum(norm(normal), 1e-300)[:, None]
     seen = normal @ EYE > 0
-    screen = _projected(corners[seen])
+    screen = projected(corners[seen])
     bright = 0.55 + 0.45 * np.abs(normal[seen] @ (LIGHT / np.linalg.norm(LIGHT)))
     colours = _palette(int(mesh.tet_tags.max()) + 1)[groups[seen]] * bright[:, None]
     size = (HEIGHT * FINER, WIDTH * FINER)
     image = np.ones((*size, 3))
-    _draw(screen, colours, image, np.full(size, -np.inf))
+    draw(screen, colours, image, np.full(size, -np.inf))
     small = image.reshape(HEIGHT, FINER, WIDTH, FINER, 3).mean(axis=(1, 3))
     return png.encoded((255 * np.clip(small, 0, 1) + 0.5).astype(np.uint8))
 
@@ -55,7 +55,7 @@ def _shown(mesh: TetMesh) -> tuple[Ints, Ints]:
     return faces[outer], tags[outer // 4]
 
 
-def _projected(corners: Array) -> Array:
+def projected(corners: Array) -> Array:
     """Corners (k, 3, 3) as column and row in the picture, and depth towards the eye."""
     eye = EYE / np.linalg.norm(EYE)
     right = cross(np.array([0.0, 0.0, 1.0]), eye)
@@ -77,7 +77,7 @@ def _palette(count: int) -> Array:
 
 
 @scalar
-def _draw(screen: Array, colours: Array, image: Array, depth: Array) -> None:
+def draw(screen: Array, colours: Array, image: Array, depth: Array) -> None:
     """Fill triangles (k, 3, 3) into the picture where nothing nearer is; edges are darker."""
     height, width = depth.shape
     for k in range(len(screen)):

@@ -4,6 +4,7 @@ Cell data: `group` (tag, unique among triangles and among tetrahedra), `region` 
 (the input's boundary condition number, -1 for none). Point data: `unprojected`. Field data: for
 each name an array of one number, `volume NAME` and `surface NAME` the tag, `region NAME` the
 number. (Arrays of strings would be plainer, but meshio refuses files with any.)
+Fields asked for have their own names; triangles have -1.
 Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
 """
 
@@ -51,11 +52,17 @@ def encoded(mesh: TetMesh) -> bytes:
         "</Cells>",
         "<PointData>",
         _array("unprojected", unprojected),
+        *(_array(name, values) for name, values in mesh.point_data.items()),
         "</PointData>",
         '<CellData Scalars="group">',
         _array("group", np.concatenate([mesh.triangle_tags, mesh.tet_tags])),
         _array("region", region),
         _array("bc", np.concatenate([_conditions(mesh), np.full(len(mesh.tets), -1)])),
+        *(
+            _array(name, np.concatenate([np.full(len(mesh.triangles), -1), values]))
+            for name, values in mesh.cell_data.items()
+            if name != "region"
+        ),
         "</CellData>",
         "</Piece>",
         "</UnstructuredGrid>",

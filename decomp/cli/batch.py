@@ -1,0 +1,202 @@
+"""`decomp mesh` of several models: each in a process of its own, so that none stops the others."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from decomp.errors import DecompError, FileError, InputError
+
+PASSED = (
+    *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
+    *("ascii", "msh2", "timeout", "quiet"),
+)
+"""Options that are handed on."""
+PATIENCE = 5.0
+"""Seconds that a process is given to end after an interrupt."""
+
+Tell = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What has become of a model.
+
+    Args:
+        model: its file.
+        seconds: taken.
+        figures: the report's, None if it failed.
+        error: why it failed, else "".
+    """
+
+    model: Path
+    seconds: float
+    figures: dict[str, Any] | None
+    error: str
+
+
+def run(options: argparse.Namespace) -> None:
+    """Mesh all models into a directory, tell of each, fail if any did.
+
+    Raises:
+        InputError: two would be written to one file.
+        FileError: the directory cannot be made.
+        DecompError: a model failed; the others are written.
+    """
+    for name in ("report", "html"):
+        if getattr(options, name) is not None:
+            raise InputError(f"--{name} is for one model; a batch prints a table")
+    folder = _folder(options.output)
+    targets = [folder / f"{model.stem}.{options.format}" for model in options.models]
+    for k, target in enumerate(targets):
+        if target in targets[:k]:
+            first = options.models[targets.index(target)]
+            raise InputError(f"{first} and {options.models[k]} would both be written to {target}")
+    outcomes = _meshed(options, targets)
+    if not options.quiet:
+        print("\n".join(table(outcomes)))
+    failed = [outcome for outcome in outcomes if outcome.error]
+    for outcome in failed:
+        print(f"decomp: {outcome.model}: {outcome.error}", file=sys.stderr)
+    if failed:
+        raise DecompError(f"{len(failed)} of {len(outcomes)} models failed")
+
+
+def table(outcomes: Sequence[Outcome]) -> list[str]:
+    """A line for each model."""
+    width = max([5, *(len(str(outcome.model)) for outcome in outcomes)])
+    lines = [f"{'model':<{width}}  {'tets':>9}  {'volume error':>12}  {'least angle':>11}  seconds"]
+    for each in outcomes:
+        start = f"{each.model!s:<{width}}"
+        if each.figures is None:
+            lines.append(f"{start}  {'failed':>9}  {'':>12}  {'':>11}  {each.seconds:7.1f}")
+            continue
+        regions = each.figures["regions"]
+        off = max(abs(r["volume"] / r["exact"] - 1) for r in regions)
+        angle = each.figures["quality"]["least_dihedral"]
+        lines.append(
+            f"{start}  {each.figures['tets']:>9}  {off:>12.1e}  {angle:>11.1f}  {each.seconds:7.1f}"
+        )
+    return lines
+
+
+def _folder(outputs: Sequence[Path]) -> Path:
+    if len(outputs) > 1:
+        raise InputError("several models are written into one directory; give -o once")
+    folder = outputs[0] if outputs else Path()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(
+            f"several models are written into a directory, and this is none: {error.strerror}",
+            folder,
+        ) from None
+    return folder
+
+
+def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcome]:
+    """All models, at most `jobs` at a time; when interrupted, all are stopped."""
+    running: list[subprocess.Popen[str]] = []
+    with (
+        _bars(options.models, options.quiet) as tells,
+        ThreadPoolExecutor(options.jobs) as pool,
+    ):
+        given = zip(options.models, targets, tells, strict=True)
+        waiting = [pool.submit(_one, options, *each, running) for each in given]
+        try:
+            return [future.result() for future in waiting]
+        except BaseException:
+            for future in waiting:
+                future.cancel()
+            _stop(running)
+            raise
+
+
+def _one(
+    options: argparse.Namespace,
+    model: Path,
+    target: Path,
+    tell: Tell,
+    running: list[subprocess.Popen[str]],
+) -> Outcome:
+    start = time.perf_counter()
+    values = {name: getattr(options, name) for name in PASSED}
+    process = subprocess.Popen(
+        [sys.executable, "-m", "decomp.cli.batch_worker"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    running.append(process)
+    assert process.stdin is not None
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdin.write(json.dumps({**values, "model": str(model), "output": str(target)}))
+    process.stdin.close()
+    figures, error = None, ""
+    for line in process.stdout:
+        said = json.loads(line)
+        if "what" in said:
+            tell(said["what"], said["done"])
+        figures, error = said.get("figures", figures), said.get("error", error)
+    noise = process.stderr.read().strip().splitlines()
+    code = process.wait()
+    if figures is None and not error:
+        error = f"ended with code {code}" + (f": {noise[-1]}" if noise else "")
+    tell("failed" if error else "done", 1.0)
+    return Outcome(model, time.perf_counter() - start, figures, error)
+
+
+def _stop(running: Sequence[subprocess.Popen[str]]) -> None:
+    for process in running:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+    end = time.monotonic() + PATIENCE
+    for process in running:
+        try:
+            process.wait(max(0.0, end - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            process.kill()
+
+
+@contextmanager
+def _bars(models: Sequence[Path], quiet: bool) -> Iterator[list[Tell]]:
+    """A bar on stderr for each model; silence where stderr is no terminal."""
+    if quiet or not sys.stderr.isatty():
+        yield [lambda what, done: None for _ in models]
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (
+        TextColumn("{task.fields[model]}"),
+        BarColumn(),
+        TextColumn("{task.description}"),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        tasks = [
+            progress.add_task("waiting", total=1.0, start=False, model=str(model))
+            for model in models
+        ]
+
+        def teller(task: Any) -> Tell:
+            def tell(what: str, done: float) -> None:
+                progress.start_task(task)
+                progress.update(task, description=what, completed=done)
+
+            return tell
+
+        yield [teller(task) for task in tasks]

@@ -1,0 +1,40 @@
+"""One model of a batch, in a process of its own: `python -m decomp.cli.batch_worker`.
+
+Options come as JSON on stdin; on stdout go JSON lines: `{"what": ..., "done": ...}` while it works,
+then `{"figures": ...}` (the report) or `{"error": ..., "code": ...}`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+
+def main() -> int:
+    """Mesh a model and write it."""
+    from decomp.cli.mesh import meshed, written
+    from decomp.errors import DecompError
+    from decomp.tetra.report import as_json
+
+    given = json.loads(sys.stdin.read())
+    paths = {"model": Path(given["model"]), "output": [Path(given["output"])]}
+    options = argparse.Namespace(**{**given, **paths})
+    try:
+        mesh, figures = meshed(options, lambda what, done: _say({"what": what, "done": done}))
+        written(mesh, options, options.output)
+    except DecompError as error:
+        _say({"error": str(error), "code": error.exit_code})
+        return error.exit_code
+    _say({"figures": as_json(figures)})
+    return 0
+
+
+def _say(values: dict[str, Any]) -> None:
+    print(json.dumps(values), flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

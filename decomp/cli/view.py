@@ -1,0 +1,70 @@
+"""`decomp view`: look at a model, a mesh or a skeleton."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from decomp.cli.arguments import add_output
+
+if TYPE_CHECKING:
+    from decomp.view.scene import Scene
+
+SUFFIXES = (".html", ".png")
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    from decomp.cli.computing import add_options
+
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "view",
+        help="look at a model's skeleton and cells, a mesh, or a skeleton's file",
+        description="Show a model (its skeleton, cells and faces), a mesh (.msh) or a skeleton "
+        "(.vtu). Without -o a window opens, which needs pyvista; .html is a page that works "
+        "without a network: turn, slice, explode, hide by name, hover for names.",
+    )
+    add_options(parser, "Netgen .geo, OpenSCAD .csg, decomp .json, .msh, or a skeleton's .vtu")
+    add_output(parser, SUFFIXES)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Check the outputs, compute if need be, write or show."""
+    from decomp.cli.computing import computed
+    from decomp.output.suffixes import known_suffix
+    from decomp.output.whole_file import check_target, write_whole
+    from decomp.view import image, page
+    from decomp.view.scene import MODELS, scene_of
+
+    for path in options.output:
+        known_suffix(path, SUFFIXES, "views")
+        check_target(path)
+    is_model = options.model.suffix.lower() in MODELS
+    scene = scene_of(options.model, computed(options) if is_model else None)
+    for path in options.output:
+        encode = page.encoded if path.suffix.lower() == ".html" else image.encoded
+        write_whole(path, encode(scene))
+    if not options.output:
+        show(scene)
+    elif not options.quiet:
+        print(f"written: {', '.join(str(path) for path in options.output)}")
+
+
+def show(scene: Scene) -> None:
+    """Open a window.
+
+    Raises:
+        InputError: pyvista is not installed.
+    """
+    try:
+        import pyvista
+    except ImportError:
+        from decomp.errors import InputError
+
+        raise InputError(
+            "a window needs pyvista: pip install pyvista; or write a page: -o view.html"
+        ) from None
+    from decomp.view.window import plotter
+
+    plotter(scene, pyvista).show()

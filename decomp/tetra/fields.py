@@ -1,0 +1,146 @@
+"""Values on a mesh that come from the exact geometry, for FEM: distance, thickness, nearest face.
+
+- `distance` (nodes): to the boundary of the region that the node is in; 0 on the boundary.
+- `thickness` (nodes): the diameter of the largest ball inside the region that touches the
+  boundary where it is nearest to the node. It is twice the distance on the skeleton, the wall's
+  width between parallel walls, and goes to 0 towards sharp edges. It jumps where the nearest point
+  does.
+- `nearest` (tetrahedra): the tag of the surface group of the face that is nearest to the centroid;
+  a reentrant edge counts as the face that owns it.
+- `cell` (tetrahedra): number of the cell, from 1, in the order of the groups of cells.
+- `region` (tetrahedra): number of the region, from 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from decomp.boundary.topology import RegionBoundary
+from decomp.errors import InputError
+from decomp.geometry import Geometry
+from decomp.sites.site import SiteKind
+from decomp.tetra.cells import site_owners
+from decomp.tetra.convert import region_names
+from decomp.tetra.mesh import GroupKind, TetMesh
+from decomp.tracing.balls import inscribed_balls
+from decomp.vectors import Array, Ints, norm
+
+AT_NODES, AT_TETS = ("distance", "thickness"), ("nearest", "cell", "region")
+FIELDS = (*AT_NODES, *AT_TETS)
+INSIDE = 1e-5
+"""Nodes nearer to the boundary than this part of the diagonal are asked from this far inside."""
+
+
+def checked_fields(names: Sequence[str]) -> tuple[str, ...]:
+    """Names of fields, each once.
+
+    Raises:
+        InputError: one is unknown.
+    """
+    for name in names:
+        if name not in FIELDS:
+            raise InputError(f"{name!r} is no field; there are {', '.join(FIELDS)}")
+    return tuple(dict.fromkeys(names))
+
+
+def with_fields(geometry: Geometry, mesh: TetMesh, names: Sequence[str], cells: Ints) -> TetMesh:
+    """A mesh with values on it.
+
+    Args:
+        geometry: that it is a mesh of.
+        mesh: to give fields to.
+        names: of `FIELDS`.
+        cells: (m,) the number of each tetrahedron's cell.
+
+    Raises:
+        InputError: a name is unknown.
+        GeometryError: the ball at a point cannot be found; says where.
+    """
+    at_nodes: dict[str, Array] = {}
+    at_tets: dict[str, Ints] = {}
+    for name in checked_fields(names):
+        if name == "distance":
+            at_nodes[name] = geometry.index.nearest(mesh.points).distance
+        elif name == "thickness":
+            at_nodes[name] = thickness(geometry, mesh)
+        elif name == "nearest":
+            at_tets[name] = nearest_surfaces(geometry, mesh)
+        elif name == "cell":
+            at_tets[name] = cells
+        else:
+            names_of = [each.name for each in geometry.regions]
+            numbers = np.array([region_names(mesh).index(each) for each in names_of])
+            at_tets[name] = numbers[_regions(geometry, mesh)]
+    return replace(mesh, point_data=at_nodes, cell_data=at_tets)
+
+
+def thickness(geometry: Geometry, mesh: TetMesh) -> Array:
+    """The local thickness (n,) at the nodes, see above.
+
+    At nodes on the boundary it is that of a point close to it, inside the tetrahedron at the node
+    whose centroid is deepest in its region.
+    """
+    index = geometry.index
+    points = np.array(mesh.points)
+    region = np.full(len(points), -1, dtype=np.int64)
+    centre = mesh.points[mesh.tets[:, :4]].mean(axis=1)
+    of_tet = _regions(geometry, mesh)
+    order = np.argsort(index.nearest(centre).distance, kind="stable")
+    owner = np.empty(len(points), dtype=np.int64)
+    owner[mesh.tets[order]] = order[:, None]  # the deepest is written last
+    region = of_tet[owner]
+    inside = INSIDE * geometry.diagonal
+    found = index.nearest(points)
+    shallow = np.flatnonzero((found.distance < inside) | (found.region != region))
+    way = centre[owner[shallow]] - points[shallow]
+    points[shallow] += 2 * inside * way / norm(way)[:, None]
+    found = index.nearest(points)
+    result, sites = np.zeros(len(points)), found.site.astype(np.int64)
+    for number, boundary in enumerate(geometry.regions):
+        rows = np.flatnonzero((found.region == number) & (found.distance > 0))
+        inward = _inward(geometry, boundary, points[rows], found.foot[rows], sites[rows])
+        balls = inscribed_balls(index, boundary, number, found.foot[rows], inward)
+        result[rows] = 2 * np.maximum(balls.radius, found.distance[rows])
+    return result
+
+
+def _inward(
+    geometry: Geometry, boundary: RegionBoundary, points: Array, feet: Array, sites: Ints
+) -> Array:
+    """Unit vectors (k, 3) from feet towards points; the exact normals on faces."""
+    way = points - feet
+    result = np.asarray(way / norm(way)[:, None])
+    for number in np.unique(sites).tolist():
+        site = geometry.sites[number]
+        if site.kind is SiteKind.FACE:
+            rows = sites == number
+            face = boundary.faces[site.index]
+            result[rows] = -face.outward * boundary.carriers[face.carrier].normal(feet[rows])
+    return result
+
+
+def nearest_surfaces(geometry: Geometry, mesh: TetMesh) -> Ints:
+    """The tag (m,) of the surface group that is nearest to each tetrahedron's centroid."""
+    outer = [g for g in mesh.groups if g.kind in (GroupKind.FACE, GroupKind.INTERFACE)]
+    tags = {part: group.tag for group in outer for part in group.name.split("|")}
+    owner = site_owners(geometry.sites, geometry.regions)
+    table = np.full(len(geometry.sites), -1, dtype=np.int64)
+    for number, site in enumerate(geometry.sites):
+        if site.region >= 0:
+            boundary = geometry.regions[site.region]
+            table[number] = tags[f"{boundary.name}/{boundary.faces[owner[number]].name}"]
+    centre = mesh.points[mesh.tets[:, :4]].mean(axis=1)
+    return table[geometry.index.nearest(centre).site]
+
+
+def _regions(geometry: Geometry, mesh: TetMesh) -> Ints:
+    """The region (m,) of each tetrahedron, as a number into the geometry's."""
+    number = {each.name: k for k, each in enumerate(geometry.regions)}
+    table = np.full(int(mesh.tet_tags.max(initial=0)) + 1, -1, dtype=np.int64)
+    for group in mesh.groups:
+        if group.dimension == 3:
+            table[group.tag] = number[group.regions[0]]
+    return table[mesh.tet_tags]

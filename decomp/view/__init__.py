@@ -1,0 +1,1 @@
+"""Pictures of models, meshes and skeletons: a page, an image, a window."""
