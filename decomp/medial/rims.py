@@ -39,6 +39,8 @@ SHIFT = 0.37
 EMPTY = 1e-10
 """A ball is empty if the boundary enters it by less than this part of the size."""
 HALVINGS = 12
+RESTING = 1e-7
+"""A centre that moves less than this part of the region's size rests."""
 SHORTEST = 1e-9
 CLOSE = 0.5
 """Spots nearer to each other than this part of a cell's height are one too many."""
@@ -255,8 +257,8 @@ class _EdgeRims:
 
     def _piece(self, spots: Array, closed: bool) -> CurvePiece | None:
         """A rim over spots (k, 2) in order."""
-        spots = spots[_spread(spots)]
-        if float(norm(spots[-1] - spots[0])) <= SHORTEST:
+        spots = self._moving(spots[_spread(spots)])
+        if len(spots) < 2 or float(norm(spots[-1] - spots[0])) <= SHORTEST:
             return None
         while len(spots) < KNOWN:
             spots = self._denser(spots)
@@ -267,6 +269,15 @@ class _EdgeRims:
         pair = (self._site, self._site)
         middle = feet[len(spots) // 2][None]
         return CurvePiece(LineKind.RIM, ((self._site,),), element, centres, middle, pairs=(pair,))
+
+    def _moving(self, spots: Array) -> Array:
+        """Spots without those at the ends over which the centre rests.
+
+        An edge of a sphere has the sphere's centre for all of its length.
+        """
+        centres = self._spheres.balls(spots)[3]
+        moves = np.flatnonzero(norm(np.diff(centres, axis=0)) > RESTING * self._size)
+        return spots[moves[0] : moves[-1] + 2] if len(moves) else spots[:0]
 
     def _denser(self, spots: Array) -> Array:
         inner: Sequence[Array] = [self._between(a, b, 0.5)[0] for a, b in pairwise(spots)]

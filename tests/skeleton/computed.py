@@ -33,6 +33,7 @@ SLOW = {
     "half torus",
     "wide offset tee",
     "netgen/twocyl.geo",
+    "bulge",
 }
 """Models that take more than a few seconds."""
 
@@ -43,7 +44,9 @@ LONG = {
 }
 """Models that take half a minute and more."""
 
-UNFINISHED: dict[str, str] = {}
+UNFINISHED: dict[str, str] = {
+    "bulge": "the bar's axis does not end exactly where the rim of its edge with the ball begins",
+}
 """Models whose skeleton cannot be computed yet, and why."""
 
 
