@@ -10,7 +10,7 @@ import numpy as np
 from decomp.errors import InputError
 from decomp.medial.incidence import Incidence
 from decomp.medial.result import Skeleton
-from decomp.medial.self_sheets import MirrorPlane
+from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.sheet_surface import CLEAR, SheetSurface
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, dot, nearest_rows, norm
@@ -78,7 +78,7 @@ def facing_sheets(skeleton: Skeleton) -> list[FacingSheet]:
     """All sheets of a skeleton, in the order of their numbers through all regions.
 
     Raises:
-        InputError: a sheet does not lie on a surface that the skeleton's computation makes.
+        InputError: a sheet is one that an edge has with itself, in no plane of symmetry.
     """
     found: list[FacingSheet] = []
     for number, region in enumerate(skeleton.regions):
@@ -90,5 +90,9 @@ def facing_sheets(skeleton: Skeleton) -> list[FacingSheet]:
             elif isinstance(surface, MirrorPlane):
                 found.append(MirrorSheet(surface, incidence, sheet.sites[0]))
             else:
-                raise InputError(f"sheet {k} of region {region.name} has no exact surface")
+                raise InputError(
+                    f"sheet {k} of region {region.name} is one that the edge "
+                    f"{skeleton.sites[sheet.sites[0]].name} has with itself, in no plane of "
+                    "symmetry; angles between feet are not known there"
+                )
     return found

@@ -43,7 +43,7 @@ class Elements:
             `decomp.voronoi.Kind`, -1 for what is none.
         degree: of that surface's equation, -1 where none is known.
         sheet_names: `region/sheet-N` by number.
-        sheet_kinds: what each sheet lies on, by number.
+        sheet_kinds: what each sheet lies on, by number; empty where that is not told.
     """
 
     points: Array

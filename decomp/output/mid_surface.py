@@ -72,4 +72,5 @@ def _elements(surface: MidSurface) -> Elements:
         none,
         none,
         surface.sheet_names,
+        (),
     )
