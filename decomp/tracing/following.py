@@ -129,7 +129,7 @@ def settle(
     return True
 
 
-@inner
+@scalar
 def advance(
     table: SupportTable,
     which: Ints,

@@ -23,7 +23,7 @@ OUTER, INNER, LENGTH = 2.0, 1.5, 3.0
 def tube() -> decomp.TetMesh:
     outer = decomp.Cylinder((0, 0, 0), (0, 0, LENGTH), OUTER, name="outer")
     hole = decomp.Cylinder((0, 0, -1), (0, 0, LENGTH + 1), INNER, name="hole")
-    return decomp.mesh(outer - hole, size=0.6, fields=FIELDS)
+    return decomp.mesh(outer - hole, size=0.6, layers=4, fields=FIELDS)
 
 
 def walls(points: np.ndarray) -> np.ndarray:
