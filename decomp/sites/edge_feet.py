@@ -184,6 +184,7 @@ def between_samples(
     high, good2, behind, _ = from_end(table, a, b, samples, i, 1.0, p)
     if not (good and good2 and ahead > 0.0 and behind < 0.0):
         return False, q
+    least, best = inf, q
     for step in range(60):
         u = high - behind * (high - low) / (behind - ahead)
         if step > HASTE and step % 2 == 0:
@@ -194,6 +195,9 @@ def between_samples(
         good, value, q = advance(table, a, b, samples, i, u, p)
         if not good:
             return False, q
+        # the last point need not be the best one: it can be a half
+        if abs(value) < least:
+            least, best = abs(value), q
         if value == 0.0:
             break
         if value > 0.0:
@@ -204,7 +208,7 @@ def between_samples(
             high, behind, ahead = u, value, ahead * (1.0 - factor)
         if high - low < 1e-14:
             break
-    return True, q
+    return True, best
 
 
 @inner

@@ -48,7 +48,16 @@ def fin(
     start = rows[clear[-1]]
     # from a wide gap to a narrow one feet can be followed, the other way they may miss
     wider = [k for k in clear if _gap(rows[k], pair) >= WIDE / 2 * rows[k].radius]
-    wide = rows[wider[-1]] if wider else start
+    for k in (clear[-1], *wider[-1:]):
+        found = _read_off(points, rows[k], pair)
+        if found is not None:
+            behind = [s for s in found[:-1] if float((s.point - start.point) @ start.tangent) > 0]
+            return clear[-1] + 1, [*behind, found[-1]]
+    return None
+
+
+def _read_off(points: SeamPoints, wide: State, pair: tuple[int, int]) -> list[State] | None:
+    """Points over which a gap closes, the end last, from one at which it is wide or near one."""
     for _ in range(ROUNDS):
         if WIDE / 2 <= _gap(wide, pair) / wide.radius <= WIDE:
             break
@@ -69,10 +78,8 @@ def fin(
     if len(good) < FITTED:
         return None
     end = _balanced(points, _end(good, pair), pair)
-    if float(norm(end.point - wide.point)) > FARTHEST * wide.radius:
-        return None
-    behind = [s for s in good if float((s.point - start.point) @ start.tangent) > 0]
-    return clear[-1] + 1, [*behind, end]
+    near = float(norm(end.point - wide.point)) <= FARTHEST * wide.radius
+    return [*good, end] if near else None
 
 
 def _gap(state: State, pair: tuple[int, int]) -> float:
