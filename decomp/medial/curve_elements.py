@@ -13,7 +13,7 @@ from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve
-from decomp.medial.reflexive import Locus
+from decomp.medial.reflexive_loci import Locus
 from decomp.medial.trims import solve_radius
 from decomp.tracing.equidistance import equidistant
 from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place

@@ -11,19 +11,19 @@ that the carrier's nearest points are not on the boundary.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
-from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
+from decomp.carriers import Sphere
 from decomp.curves.circle import Circle
 from decomp.medial.incidence import Incidence
+from decomp.medial.reflexive_loci import Locus, circle_axis, locus_of
 from decomp.sites import SiteIndex
 from decomp.tracing.fields import site_fields
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Bools, cross, frame, norm
+from decomp.vectors import Array, Bools, norm
 
 ZERO = 1e-10
 """Depths below this part of the region's size are zero."""
@@ -32,6 +32,10 @@ FINEST = 1e-5
 AROUND = 72
 """Directions in which contacts around a point of a locus are looked for."""
 TOWARDS = 0.5
+LOOKS = 9
+"""At so many points of a part it is looked which faces are touched."""
+TOWARD = 0.9
+"""How far from a centre to a contact, as a part of the radius, the nearest site is asked for."""
 BESIDE = 1e-4
 """How far from the end of a part its equation is first looked at, in units of the size."""
 NOISE = 1e-6
@@ -40,28 +44,6 @@ NEARER = (1e-5, 1e-5, 1e-6)
 """How far beyond an end derivatives are taken, in units of the size, step by step."""
 PARTS = 32
 """Parts into which an interval is cut to narrow down where zeros end."""
-
-
-@dataclass(frozen=True, eq=False)
-class Locus:
-    """The reflexive locus of a carrier as a curve.
-
-    Args:
-        point: points (k, 3) at parameters (k,), arc length.
-        span: first and last parameter to look at.
-        closed: whether these are the same point.
-        radius: distance (k,) to the carrier.
-        parameter: of points (k, 3) near the locus.
-        touched: directions (count, 3) from the point at one parameter to the points of the
-            carrier that are nearest to it, evenly around their circle.
-    """
-
-    point: Callable[[Array], Array]
-    span: tuple[float, float]
-    closed: bool
-    radius: Callable[[Array], Array]
-    parameter: Callable[[Array], Array]
-    touched: Callable[[float, int], Array]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,119 +88,15 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
         sites = tuple(incidence.face_site[f] for f in faces)
         if isinstance(carrier, Sphere) and outward > 0:
             found.extend(_centre(index, incidence, carrier, sites))
-        locus = _locus(carrier, outward, boundary.bounds)
+        locus = locus_of(carrier, outward, boundary.bounds)
         if locus is not None:
             found.extend(_Search(index, incidence, sites, locus).parts())
     for number, site in incidence.edge_site.items():
         curve = boundary.edges[number].curve
         if isinstance(curve, Circle):
-            locus = _circle_axis(curve, boundary.bounds)
+            locus = circle_axis(curve, boundary.bounds)
             found.extend(_Search(index, incidence, (site,), locus).parts())
     return found
-
-
-def _locus(carrier: Carrier, outward: int, bounds: Array) -> Locus | None:
-    if isinstance(carrier, Cylinder) and outward > 0:
-        radius = carrier.radius
-        return _line(
-            carrier.point, carrier.axis, bounds, lambda u: np.full(np.shape(u), radius), carrier
-        )
-    if isinstance(carrier, Cone) and outward > 0:
-        apex, axis, sine = carrier.apex, carrier.axis, np.sin(carrier.angle)
-        line = _line(apex, axis, bounds, lambda u: np.asarray(np.maximum(u, 0.0) * sine), carrier)
-        low, high = line.span
-        span = (max(low, 0.0), max(high, 0.0))
-        return replace(line, span=span)
-    if isinstance(carrier, Torus):
-        major, minor, centre = carrier.major, carrier.minor, carrier.centre
-        if outward < 0:
-            return _line(
-                centre,
-                carrier.axis,
-                bounds,
-                lambda u: np.asarray(np.hypot(major, u) - minor),
-                carrier,
-            )
-        x, y = frame(carrier.axis)
-
-        def spine(u: Array) -> Array:
-            angle = np.asarray(u)[..., None] / major
-            return np.asarray(centre + major * (np.cos(angle) * x + np.sin(angle) * y))
-
-        def along(p: Array) -> Array:
-            v = p - centre
-            return np.asarray(major * np.mod(np.arctan2(v @ y, v @ x), 2 * np.pi))
-
-        return Locus(
-            spine,
-            (0.0, 2 * np.pi * major),
-            True,
-            lambda u: np.full(np.shape(u), minor),
-            along,
-            _touched_circle(spine, carrier.foot, minor),
-        )
-    return None
-
-
-def _line(
-    point: Array,
-    axis: Array,
-    bounds: Array,
-    radius: Callable[[Array], Array],
-    carrier: Carrier,
-) -> Locus:
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, -1).T
-    heights = (corners - point) @ axis
-
-    def at(u: Array) -> Array:
-        return np.asarray(point + np.asarray(u)[..., None] * axis)
-
-    size = float(norm(bounds[1] - bounds[0]))
-    return Locus(
-        at,
-        (float(heights.min()), float(heights.max())),
-        False,
-        radius,
-        lambda p: np.asarray((p - point) @ axis),
-        _touched_circle(at, carrier.foot, size),
-    )
-
-
-def _touched_circle(
-    point: Callable[[Array], Array], foot: Callable[[Array], Array], size: float
-) -> Callable[[float, int], Array]:
-    """Directions to the feet of points on a small circle around the locus."""
-
-    def touched(u: float, count: int) -> Array:
-        h = 1e-6 * size
-        behind, here, ahead = point(np.array([u - h, u, u + h]))
-        x, y = frame((ahead - behind) / float(norm(ahead - behind)))
-        angle = np.linspace(0, 2 * np.pi, count, endpoint=False)[:, None]
-        ways = foot(here + 1e-7 * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
-        return np.asarray(ways / norm(ways)[:, None])
-
-    return touched
-
-
-def _circle_axis(circle: Circle, bounds: Array) -> Locus:
-    """The axis of a circle that is an edge: its points are equally far from the whole circle."""
-    axis = cross(circle.x, circle.y)
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, -1).T
-    heights = (corners - circle.centre) @ axis
-
-    def touched(u: float, count: int) -> Array:
-        angle = np.linspace(0, circle.period, count, endpoint=False)
-        ways = circle.point(circle.domain[0] + angle) - circle.centre - u * axis
-        return np.asarray(ways / norm(ways)[:, None])
-
-    return Locus(
-        lambda u: np.asarray(circle.centre + np.asarray(u)[..., None] * axis),
-        (float(heights.min()), float(heights.max())),
-        False,
-        lambda u: np.hypot(circle.radius, u),
-        lambda p: np.asarray((p - circle.centre) @ axis),
-        touched,
-    )
 
 
 def _centre(
@@ -246,12 +124,6 @@ def _touched(
     inside, depth = region_queries(index, incidence.region).depth(half)
     gap = np.abs(depth - (1 - TOWARDS) * radius)
     return np.asarray(inside & (gap <= 1e-9 * incidence.boundary.diagonal))
-
-
-LOOKS = 9
-"""At so many points of a part it is looked which faces are touched."""
-TOWARD = 0.9
-"""How far from a centre to a contact, as a part of the radius, the nearest site is asked for."""
 
 
 class _Search:
