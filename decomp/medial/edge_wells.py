@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from decomp.boundary.topology import Edge
@@ -17,21 +15,6 @@ CLOSE = 3
 DEEP = 0.1
 """Places that are farther than the nearest by this part of the distance do not count."""
 BLOCK = 512
-
-
-@dataclass(frozen=True, eq=False)
-class Wells:
-    """Samples of an edge that are nearer to a point than their neighbours.
-
-    Args:
-        row: the point (m,) of each, ascending.
-        sample: its number (m,) among the samples.
-        distance: (m,) from the point.
-    """
-
-    row: Ints
-    sample: Ints
-    distance: Array
 
 
 class EdgeWells:
@@ -50,23 +33,21 @@ class EdgeWells:
         self.points: Array = edge.curve.point(edge.curve.wrapped(self.t))
         self.apart = 1.5 * float(norm(np.diff(self.points, axis=0)).max())
 
-    def around(self, points: Array, within: Array) -> Wells:
-        """The wells of points (k, 3) that are at most so much (k,) deeper than the deepest."""
-        rows, samples, distances = [], [], []
+    def _wells(self, points: Array) -> tuple[Ints, Ints]:
+        """Samples that are nearer to points (k, 3) than their neighbours, and nearly the nearest.
+
+        Returns:
+            the point (m,) of each, ascending, and its number (m,) among the samples.
+        """
+        none = np.empty(0, dtype=np.int64)
+        rows, samples = [none], [none]
         for start in range(0, len(points), BLOCK):
-            block = points[start : start + BLOCK]
-            away = norm(block[:, None] - self.points)
-            least = away.min(axis=1) + within[start : start + BLOCK]
-            row, sample = np.nonzero(self._bottoms(away) & (away <= least[:, None]))
+            away = norm(points[start : start + BLOCK, None] - self.points)
+            near = away <= away.min(axis=1)[:, None] + self.apart
+            row, sample = np.nonzero(self._bottoms(away) & near)
             rows.append(row + start)
             samples.append(sample)
-            distances.append(away[row, sample])
-        none = np.empty(0, dtype=np.int64)
-        return Wells(
-            np.concatenate([none, *rows]),
-            np.concatenate([none, *samples]),
-            np.concatenate([np.empty(0), *distances]),
-        )
+        return np.concatenate(rows), np.concatenate(samples)
 
     def _bottoms(self, away: Array) -> Bools:
         """Where distances (k, s) from the samples are less than at their neighbours."""
@@ -76,13 +57,13 @@ class EdgeWells:
         return np.asarray((away <= before) & (away < after))
 
     @property
-    def spacing(self) -> float:
+    def _spacing(self) -> float:
         """Of the samples' parameters."""
         return float(self.t[1] - self.t[0])
 
     def bottom(self, points: Array, sample: Ints) -> Array:
         """Parameters (k,) of the places nearest to points (k, 3) beside samples (k,)."""
-        low, high = self.t[sample] - self.spacing, self.t[sample] + self.spacing
+        low, high = self.t[sample] - self._spacing, self.t[sample] + self._spacing
         if not self._edge.closed:
             low, high = np.maximum(low, self.t[0]), np.minimum(high, self.t[-1])
         curve = self._edge.curve
@@ -98,15 +79,15 @@ class EdgeWells:
 
         Distances that differ by less than `slack` count as equal.
         """
-        found = self.around(points, np.full(len(points), self.spacing))
-        at, curve = points[found.row], self._edge.curve
-        t = self.bottom(at, found.sample)
+        row, sample = self._wells(points)
+        at, curve = points[row], self._edge.curve
+        t = self.bottom(at, sample)
         distance = norm(curve.point(curve.wrapped(t)) - at)
         result = []
         for k in range(len(points)):
-            own = np.flatnonzero(found.row == k)
+            own = np.flatnonzero(row == k)
             near = own[distance[own] <= distance[own].min() + slack]
-            result.append(self._different(np.sort(t[near]), 2 * self.spacing))
+            result.append(self._different(np.sort(t[near]), 2 * self._spacing))
         return result
 
     def basins(self, points: Array, t: Array) -> Ints:

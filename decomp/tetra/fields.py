@@ -85,7 +85,6 @@ def thickness(geometry: Geometry, mesh: TetMesh) -> Array:
     """
     index = geometry.index
     points = np.array(mesh.points)
-    region = np.full(len(points), -1, dtype=np.int64)
     centre = mesh.points[mesh.tets[:, :4]].mean(axis=1)
     of_tet = _regions(geometry, mesh)
     order = np.argsort(index.nearest(centre).distance, kind="stable")

@@ -46,27 +46,17 @@ def smoothed(
     ends = np.concatenate([edges, edges[:, ::-1]])
     counts = free[ends[:, 0]] | ~free[ends[:, 1]]
     near = ends[counts]
-    number = np.maximum(np.bincount(near[:, 0], minlength=len(points)), 1)
     movable = free | held
     random = np.random.default_rng(seed)
     quality = least_dihedral(points, tets)
-    length = np.bincount(
-        ends[:, 0], norm(points[ends[:, 0]] - points[ends[:, 1]]), minlength=len(points)
-    ) / np.maximum(np.bincount(ends[:, 0], minlength=len(points)), 1)
+    length = _means(ends[:, 0], norm(points[ends[:, 0]] - points[ends[:, 1]]), len(points))
     for turn in range(ROUNDS + WANDERING):
         rank = np.where(movable, random.random(len(points)), -1.0)
         best = np.zeros(len(points))
         np.maximum.at(best, ends[:, 0], rank[ends[:, 1]])
         chosen = rank > best
-        middle = np.stack(
-            [
-                np.bincount(near[:, 0], points[near[:, 1], k], minlength=len(points))
-                for k in range(3)
-            ],
-            axis=1,
-        )
         if turn < ROUNDS:
-            wanted = points + TOWARDS * (middle / number[:, None] - points)
+            wanted = points + TOWARDS * (_middles(points, near) - points)
         else:
             wanted = points + STRIDE * length[:, None] * random.uniform(-1, 1, size=points.shape)
         on = np.flatnonzero(chosen & held)
@@ -85,3 +75,15 @@ def smoothed(
         done = kept[node]
         quality[rows[done]] = new[done]
     return points
+
+
+def _middles(points: Array, near: Ints) -> Array:
+    """The middles (n, 3) of each node's neighbours, given as pairs (k, 2) of node and neighbour."""
+    middles = [_means(near[:, 0], points[near[:, 1], k], len(points)) for k in range(3)]
+    return np.stack(middles, axis=1)
+
+
+def _means(which: Ints, values: Array, count: int) -> Array:
+    """The mean (count,) of the values (k,) that belong to each number, 0 where there is none."""
+    number = np.maximum(np.bincount(which, minlength=count), 1)
+    return np.asarray(np.bincount(which, values, minlength=count) / number)

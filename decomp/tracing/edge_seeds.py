@@ -114,8 +114,7 @@ def _jumps(
         keep = _differ(low, high)
     low, high = _rows(*low, keep), _rows(*high, keep)
     gap = norm(low[0].foot - high[0].foot)
-    # seams between the edge and other sites are seen from these, or led to by nodes
-    good = (gap > JUMP * _way(low, high)) & (low[0].site == high[0].site)
+    good = gap > JUMP * _way(low, high)
     feet = np.stack([low[1], low[0].foot, high[0].foot], axis=1)[good]
     return low[0].centre[good], feet
 

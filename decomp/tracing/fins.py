@@ -46,7 +46,7 @@ def fin(
     if not clear:
         return None
     start = rows[clear[-1]]
-    # from a wide gap to a narrow one feet can be followed, the other way they may miss
+    # going back from the last clear gap feet may miss; from a wide one they can be followed
     wider = [k for k in clear if _gap(rows[k], pair) >= WIDE / 2 * rows[k].radius]
     for k in (clear[-1], *wider[-1:]):
         found = _read_off(points, rows[k], pair)

@@ -224,7 +224,7 @@ class _Grower:
         if traced.end is SeamEnd.BOUNDARY:
             node = self._nodes.on_boundary(last)
         elif traced.end in (SeamEnd.SPLIT, SeamEnd.FIN):
-            node = self._nodes.at(last.point, True)
+            node = self._nodes.at(last.point, ending=True)
         else:
             node = self._nodes.junction(last, traced.intruder, traced.foot)
         self._nodes.take(node, last, number)
