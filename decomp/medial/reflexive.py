@@ -267,8 +267,9 @@ class _Search:
                 return float(brentq(function, a, b, xtol=1e-15 * self._size, rtol=1e-15))
         for part in NEARER:
             step = sense * part * self._size
-            level, one, two = (change(u + k * step) for k in (-1, 1, 2))
-            if not (abs(level) < 0.5 * abs(one) < 0.5 * abs(two) and one * two > 0):
+            # among the zeros the foot is not the nearest one of its edge, so they are not asked
+            one, two = (change(u + k * step) for k in (1, 2))
+            if not (abs(one) < abs(two) and one * two > 0):
                 break
             move = step * (1 - one / (two - one))
             if abs(move) > 10 * abs(step):

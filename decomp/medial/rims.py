@@ -30,7 +30,7 @@ from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Bools, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, dot, norm, place
 
 ALONG, ACROSS = 256, 32
 """Cells along and across an edge's footprint in which rims are looked for."""
@@ -39,6 +39,10 @@ SHIFT = 0.37
 EMPTY = 1e-10
 """A ball is empty if the boundary enters it by less than this part of the size."""
 HALVINGS = 12
+FLAT = 1e-6
+"""Values along a border of the footprint below this part of the greatest count as zero."""
+BESIDE = 1e-3
+"""How far beside such a border cells end, in parts of the footprint's width."""
 RESTING = 1e-7
 """A centre that moves less than this part of the region's size rests."""
 SHORTEST = 1e-9
@@ -161,53 +165,88 @@ class _EdgeRims:
 
     def pieces(self) -> list[CurvePiece]:
         """All rims of the edge."""
-        along = (np.arange(ALONG) + SHIFT) / ALONG
-        across = np.linspace(0, 1, ACROSS + 1)
-        grid = np.stack(np.meshgrid(along, across, indexing="ij"), axis=-1)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            values = self._spheres.miss(grid.reshape(-1, 2)).reshape(grid.shape[:-1])
-        if self._edge.closed:
-            along = np.concatenate([along, along[:1] + 1])
-            values = np.concatenate([values, values[:1]])
-        found = contour(values, (along, across), self._spheres.miss)
-        if not len(found.spots):
+        spots, links = self._contour()
+        if not len(spots):
             return []
-        spots, links = found.spots, found.links
-        if self._edge.closed:
-            # the sides of the last cells are those of the first
-            same = {}
-            for k, (u, v) in enumerate(spots.tolist()):
-                if u == along[-1]:
-                    gaps = np.abs(spots - [along[0], v]).max(axis=1)
-                    if gaps.min() < 1e-12:
-                        same[k] = int(np.argmin(gaps))
-            links = np.array([[same.get(a, a) for a in pair] for pair in links.tolist()])
         on = self._empty(spots)
-        inner = links[on[links].all(axis=1)] if len(links) else links
-        ends: dict[int, list[int]] = {}
+        beyond: dict[int, list[int]] = {}
         for a, b in links.tolist():
             for one, other in ((a, b), (b, a)):
                 if on[one] and not on[other]:
-                    ends.setdefault(one, []).append(other)
-        pieces = []
-        for chain, closed in chains(inner, len(spots)):
-            if not on[chain[0]]:
-                continue
-            line = [spots[k] for k in chain]
-            if closed:
-                line.append(spots[chain[0]])
-            else:
-                beyond = list(ends.get(chain[-1], []))
-                if len(chain) == 1 and len(beyond) == 2:
-                    line.insert(0, self._end(spots[chain[0]], spots[beyond.pop()]))
-                elif chain[0] in ends and len(chain) > 1:
-                    line.insert(0, self._end(spots[chain[0]], spots[ends[chain[0]][0]]))
-                if beyond:
-                    line.append(self._end(spots[chain[-1]], spots[beyond[0]]))
-            piece = self._piece(self._unrolled(np.array(line)), closed)
-            if piece is not None:
-                pieces.append(piece)
-        return pieces
+                    beyond.setdefault(one, []).append(other)
+        lines = [
+            (self._line(spots, chain, closed, beyond), closed)
+            for chain, closed in chains(links[on[links].all(axis=1)], len(spots))
+            if on[chain[0]]
+        ]
+        pieces = [self._piece(self._unrolled(line), closed) for line, closed in lines]
+        return [piece for piece in pieces if piece is not None]
+
+    def _contour(self) -> tuple[Array, Ints]:
+        """Spots (k, 2) of osculating spheres, and links (m, 2) between them, all along the edge."""
+        along = (np.arange(ALONG) + SHIFT) / ALONG
+        values = self._values(along, self._across)
+        if self._edge.closed:
+            along = np.concatenate([along, along[:1] + 1])
+            values = np.concatenate([values, values[:1]])
+        found = contour(values, (along, self._across), self._spheres.miss)
+        if not self._edge.closed:
+            return found.spots, found.links
+        # the sides of the last cells are those of the first
+        number = np.arange(len(found.spots))
+        for k in np.flatnonzero(found.spots[:, 0] == along[-1]):
+            gaps = np.abs(found.spots - [along[0], found.spots[k, 1]]).max(axis=1)
+            if gaps.min() < 1e-12:
+                number[k] = int(np.argmin(gaps))
+        return found.spots, number[found.links]
+
+    @cached_property
+    def _across(self) -> Array:
+        """Parts of the angle at which the footprint is cut into cells.
+
+        On a border where all spheres osculate, as on that of a sphere's own face, the values have
+        no sign. The outermost cells end beside it.
+        """
+        across = np.linspace(0, 1, ACROSS + 1)
+        values = np.abs(self._values((np.arange(ALONG) + SHIFT) / ALONG, across))
+        for border, beside in ((0, BESIDE), (-1, 1 - BESIDE)):
+            if values[:, border].max() < FLAT * values.max():
+                across[border] = beside
+        return across
+
+    def _values(self, along: Array, across: Array) -> Array:
+        grid = np.stack(np.meshgrid(along, across, indexing="ij"), axis=-1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return self._spheres.miss(grid.reshape(-1, 2)).reshape(grid.shape[:-1])
+
+    def _line(
+        self, spots: Array, chain: list[int], closed: bool, beyond: dict[int, list[int]]
+    ) -> Array:
+        """The spots (n, 2) of a rim, with its ends.
+
+        Args:
+            spots: all that are known.
+            chain: the numbers of those of the rim.
+            closed: whether it is.
+            beyond: for the last ones those that follow, over which balls are not empty.
+        """
+        line = [spots[k] for k in chain]
+        if closed:
+            return np.array([*line, line[0]])
+        ends = list(beyond.get(chain[-1], []))
+        starts = ends[:-1] if len(chain) == 1 else list(beyond.get(chain[0], []))
+        start, end = (
+            [self._end(spot, spots[others[-1]])] if others else self._to_border(spot)
+            for spot, others in ((line[0], starts), (line[-1], ends))
+        )
+        return np.array([*start, *line, *end])
+
+    def _to_border(self, spot: Array) -> list[Array]:
+        """The spot of the border next to one at the end of cells that end beside it."""
+        for beside, border in ((self._across[0], 0.0), (self._across[-1], 1.0)):
+            if spot[1] == beside != border:
+                return [np.array([spot[0], border])]
+        return []
 
     def _unrolled(self, spots: Array) -> Array:
         """The same spots without jumps by a period."""

@@ -21,6 +21,7 @@ from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.footprint_lines import FootprintLines, drawn_lines
 from decomp.medial.incidence import Incidence
 from decomp.medial.mirror_plane import MirrorPlane
+from decomp.medial.plane_sheets import PlaneSheets
 from decomp.medial.rims import RimCurve
 from decomp.medial.self_surface import SelfSheetSurface
 from decomp.medial.sheet_tests import SheetTests
@@ -29,8 +30,6 @@ from decomp.sites import SiteIndex
 from decomp.tracing.balls import Balls
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
-FLAT = 1e-9
-"""A sheet that leaves a plane by less than this part of the size lies in it."""
 TESTS = 5
 """Triangles of each component whose far feet are asked for."""
 
@@ -68,9 +67,10 @@ class SelfSheetMaker:
             CrossingError: the polylines must be finer.
             GeometryError: a component is neither a sheet nor none: a curve is missing.
         """
-        return _EdgeSheets(self._incidence, self._tests, self._points, site, lines, rims).parts(
-            self._add
-        )
+        flat = PlaneSheets(self._tests, self._points, self._incidence.boundary.diagonal, site)
+        return flat.within(lines) or _EdgeSheets(
+            self._incidence, self._tests, self._points, flat, site, lines, rims
+        ).parts(self._add)
 
 
 class _EdgeSheets:
@@ -84,11 +84,13 @@ class _EdgeSheets:
         incidence: Incidence,
         tests: SheetTests,
         points: Array,
+        flat: PlaneSheets,
         site: int,
         lines: Sequence[Ints],
         rims: Sequence[RimCurve | None],
     ) -> None:
         boundary = incidence.boundary
+        self._flat = flat
         self._incidence, self._tests, self._site = incidence, tests, site
         self._size, self._name = boundary.diagonal, incidence.sites[site].name
         self._edge = boundary.edges[incidence.sites[site].index]
@@ -191,12 +193,7 @@ class _EdgeSheets:
         _, inradius = incentres(found.corners[rows])
         _, balls = self._balls(found, rows[np.argsort(-inradius)[:TESTS]])
         corners = np.unique(found.triangles[rows])
-        points = np.concatenate([self._points[corners], balls.centre])
-        middle = points.mean(axis=0)
-        _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
-        if spread[-1] > FLAT * self._size * np.sqrt(len(points)):
-            return None
-        return MirrorPlane(middle, axes[2])
+        return self._flat.plane(np.concatenate([self._points[corners], balls.centre]))
 
     def _add_where_coarse(self, found: Triangulation, bent: Sequence[int]) -> bool:
         """Add inner points where triangles leave their sheet by much; whether there were any."""
@@ -219,8 +216,12 @@ class _EdgeSheets:
         planes: dict[int, MirrorPlane | None],
         add: Callable[[Array], int],
     ) -> list[SheetPart]:
-        flat = [n for n, plane in planes.items() if plane is not None]
-        parts = [part for n in flat for part in self._in_plane(found, n, planes[n])]
+        parts = [
+            part
+            for number, plane in planes.items()
+            if plane is not None
+            for part in self._flat.sheets(plane, self._border(found, number))
+        ]
         planes = {n: plane for n, plane in planes.items() if plane is None}
         drawn = len(self._drawn.vertex)
         numbers = np.full(len(self._points), -1, dtype=np.int64)
@@ -239,39 +240,14 @@ class _EdgeSheets:
             parts.append(SheetPart((self._site, self._site), surface, numbers[turned]))
         return parts
 
-    def _in_plane(
-        self, found: Triangulation, number: int, plane: MirrorPlane | None
-    ) -> list[SheetPart]:
-        """The sheet in a plane of symmetry that a component is drawn of, triangulated there."""
-        assert plane is not None
+    def _border(self, found: Triangulation, number: int) -> Ints:
+        """The segments (k, 2) of vertices of the complex that border a component."""
         inside = found.triangles[found.component == number]
         both = np.sort(np.stack([inside, np.roll(inside, -1, axis=1)], axis=-1).reshape(-1, 2))
         sides = {(int(a), int(b)) for a, b in both}
         drawn = self._drawn
         own = [k for k, (a, b) in enumerate(drawn.segments.tolist()) if (a, b) in sides]
-        segments = np.unique(np.sort(drawn.vertex[drawn.segments[own]], axis=1), axis=0)
-        used, first = np.unique(drawn.vertex, return_index=True)
-        used, first = used[np.isin(used, segments)], first[np.isin(used, segments)]
-        points = self._points[first]
-        uv, local = plane.coordinates(points), np.searchsorted(used, segments)
-        bad = crossings(uv, local)
-        if len(bad):
-            rows = np.unique(bad)
-            raise CrossingError(
-                f"curves cross in a plane of symmetry near {place(points[local[rows[0], 0]])}",
-                segments[rows],
-            )
-        flat = triangulate(uv, local)
-
-        def ask(rows: Ints, weights: Array) -> Bools:
-            where = np.einsum("ij,ijk->ik", weights, points[flat.triangles[rows]])
-            return self._tests.mirror(self._site, where, plane.mirrored)
-
-        parts = []
-        for k in kept_components(flat, points, ask, f"of the edge {self._name} with itself"):
-            triangles = flat.triangles[flat.component == k]
-            parts.append(SheetPart((self._site, self._site), plane, used[triangles]))
-        return parts
+        return drawn.vertex[drawn.segments[own]]
 
     def _surface(self, found: Triangulation, rows: Ints) -> SelfSheetSurface:
         """The surface of the sheet that triangles with given numbers are drawn of."""

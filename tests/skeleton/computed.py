@@ -44,9 +44,7 @@ LONG = {
 }
 """Models that take half a minute and more."""
 
-UNFINISHED: dict[str, str] = {
-    "bulge": "the bar's axis does not end exactly where the rim of its edge with the ball begins",
-}
+UNFINISHED: dict[str, str] = {}
 """Models whose skeleton cannot be computed yet, and why."""
 
 
