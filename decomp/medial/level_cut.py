@@ -66,10 +66,20 @@ class LevelCut:
         ).reshape(-1, 3)
 
     def done(self) -> Bisected:
-        """Halve and cut; every triangle is then on one side of the level."""
+        """Halve and cut; every triangle is then on one side of the level.
+
+        Raises:
+            GeometryError: the angle stays far from linear however short the edges are.
+        """
         for _ in range(ROUNDS):
             if not self._halve():
                 break
+        else:
+            raise GeometryError(
+                f"sheets cannot be cut where their feet face each other by "
+                f"{np.degrees(self._level):g} degrees: edges were halved {ROUNDS} times and the "
+                "angle still changes unevenly along them; ask for a little more or less"
+            )
         while self._cut():
             pass
         return self.mesh

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 
-from hypothesis import Phase, settings
+from hypothesis import Phase, assume, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
+from decomp.errors import InputError
 from decomp.voronoi import (
+    CarrierSite,
     ConeSite,
     CylinderSite,
+    Parity,
     PlaneSite,
     SphereSite,
     TorusSite,
+    VoronoiSurface,
+    surface,
 )
 from decomp.voronoi.exact import Vector
 
@@ -58,6 +64,16 @@ SITES = {
     "line": lines,
     "circle": circles,
 }
+
+
+def surfaces_of(f: CarrierSite, g: CarrierSite) -> Iterator[VoronoiSurface]:
+    """Vor(f, g), even and, where a site has two sides, odd; a pair that is refused is not used."""
+    for parity in Parity if f.two_sided or g.two_sided else [Parity.EVEN]:
+        try:
+            found = surface(f, g, parity)
+        except InputError:
+            assume(False)
+        yield found
 
 
 def on(point: Vector, way: Vector, t: Fraction) -> Vector:

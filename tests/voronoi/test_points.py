@@ -5,13 +5,12 @@ from __future__ import annotations
 from itertools import combinations_with_replacement
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
-from decomp.errors import InputError
-from decomp.voronoi import Kind, Parity, surface
+from decomp.voronoi import Kind
 from tests.voronoi.independent import equidistant_points, off_polynomial
-from tests.voronoi.instances import FEW, SITES
+from tests.voronoi.instances import FEW, SITES, surfaces_of
 
 PAIRS = list(combinations_with_replacement(SITES, 2))
 
@@ -21,12 +20,7 @@ PAIRS = list(combinations_with_replacement(SITES, 2))
 @given(st.data())
 def test_equidistant_points_lie_on_the_surface(one: str, two: str, data: st.DataObject) -> None:
     f, g = data.draw(SITES[one]), data.draw(SITES[two])
-    parities = list(Parity) if f.two_sided or g.two_sided else [Parity.EVEN]
-    for parity in parities:
-        try:
-            found = surface(f, g, parity)
-        except InputError:
-            assume(False)
+    for found in surfaces_of(f, g):
         points = equidistant_points(found, seed=1, count=60)
         if found.kind is Kind.EMPTY:
             assert not len(points)

@@ -6,14 +6,13 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
-from decomp.errors import InputError
 from decomp.vectors import Array, norm
-from decomp.voronoi import CarrierSite, Parity, Polynomial, surface
+from decomp.voronoi import CarrierSite, Polynomial
 from decomp.voronoi.stationary import stationary_feet
-from tests.voronoi.instances import FEW, SITES
+from tests.voronoi.instances import FEW, SITES, surfaces_of
 
 PAIRS = list(combinations_with_replacement(SITES, 2))
 
@@ -49,11 +48,7 @@ def closest_stationary(f: CarrierSite, g: CarrierSite, p: Array) -> float:
 def test_zeros_are_true_or_stationary(one: str, two: str, data: st.DataObject) -> None:
     """The trimmed part is equidistant to 1e-9; elsewhere feet are stationary but not nearest."""
     f, g = data.draw(SITES[one]), data.draw(SITES[two])
-    for parity in list(Parity) if f.two_sided or g.two_sided else [Parity.EVEN]:
-        try:
-            found = surface(f, g, parity)
-        except InputError:
-            assume(False)
+    for found in surfaces_of(f, g):
         if found.polynomial is None or found.kind.dimension < 2:
             continue
         middle = np.array([[float(c) for c in s.reference] for s in (f, g)]).mean(axis=0)
