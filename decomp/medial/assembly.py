@@ -13,7 +13,7 @@ from decomp.errors import GeometryError
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
-from decomp.medial.rims import RimCurve
+from decomp.medial.rim_curve import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheet_surface import SheetSurface

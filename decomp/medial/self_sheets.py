@@ -22,7 +22,7 @@ from decomp.medial.footprint_lines import FootprintLines, drawn_lines
 from decomp.medial.incidence import Incidence
 from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.plane_sheets import PlaneSheets
-from decomp.medial.rims import RimCurve
+from decomp.medial.rim_curve import RimCurve
 from decomp.medial.self_surface import SelfSheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.sheets import COARSE, ROUNDS, CrossingError, SheetPart

@@ -14,7 +14,7 @@ import numpy as np
 from decomp.errors import GeometryError
 from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.incidence import Incidence
-from decomp.medial.rims import RimCurve
+from decomp.medial.rim_curve import RimCurve
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, dot, norm, place
 
