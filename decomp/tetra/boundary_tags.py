@@ -1,0 +1,92 @@
+"""Which face or interface each triangle on the boundary of a region lies on."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.geometry import Geometry
+from decomp.tetra.cells import OUTSIDE, CellMap, locate
+from decomp.tetra.layout import Layout
+from decomp.tetra.surface import MeshSurface
+from decomp.vectors import Array, Ints, cross, dot, norm
+
+ASIDE = 0.5
+"""Nearest faces are asked so many epsilons off triangles, in their region."""
+TURNED = 3.0
+"""A normal at right angles to a face's counts as much as a distance of so many epsilons."""
+ANY = -2
+
+
+class BoundaryTags:
+    """Finds the patches of boundary triangles.
+
+    Args:
+        geometry, surface: of the model.
+        cells: the cells that tetrahedra were classified by.
+        plan: the complex laid out for them.
+        epsilon: how far the mesh may be off the complex.
+    """
+
+    def __init__(
+        self,
+        geometry: Geometry,
+        surface: MeshSurface,
+        cells: CellMap,
+        plan: Layout,
+        epsilon: float,
+    ) -> None:
+        self._geometry, self._surface, self._cells = geometry, surface, cells
+        self._plan, self._epsilon = plan, epsilon
+
+    def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
+        """The patches of triangles that bound regions[:, 0]."""
+        faces = self._faces(points, triangles, regions[:, 0])
+        known: dict[tuple[int, int, int], int] = {}
+        for number, own in enumerate(self._plan.sides):
+            for region, face in own:
+                other = next((r for r, _ in own if r != region), OUTSIDE)
+                known.setdefault((region, face, other), number)
+                known.setdefault((region, face, ANY), number)
+        keys = np.stack([regions[:, 0], faces, regions[:, 1]], axis=1)
+        unique, which = np.unique(keys, axis=0, return_inverse=True)
+        found = [known.get((r, f, other), known[r, f, ANY]) for r, f, other in unique.tolist()]
+        return np.array(found, dtype=np.int64)[which.reshape(-1)]
+
+    def _faces(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
+        """The face of its region that each triangle lies on: nearest, and turned alike."""
+        corners = points[triangles]
+        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        normal /= np.maximum(norm(normal), 1e-300)[:, None]
+        middle = corners.mean(axis=1, keepdims=True)
+        asked = np.concatenate([middle, middle + 0.7 * (corners - middle)], axis=1)
+        asked = asked - ASIDE * self._epsilon * normal[:, None]
+        found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
+        candidates = self._cells.face[found.site].reshape(-1, 4)
+        own = self._cells.region_of(found.part).reshape(-1, 4) == regions[:, None]
+        best = np.full(len(triangles), -1, dtype=np.int64)
+        least = np.full(len(triangles), np.inf)
+        for region in np.unique(regions).tolist():
+            boundary = self._surface.regions[region].boundary
+            for face in range(len(boundary.faces)):
+                rows = np.flatnonzero(
+                    (regions == region) & ((candidates == face) & own).any(axis=1)
+                )
+                cost = self._cost(region, face, corners[rows], normal[rows])
+                better = rows[cost < least[rows]]
+                least[better] = cost[cost < least[rows]]
+                best[better] = face
+            for row in np.flatnonzero((regions == region) & (best < 0)):
+                costs = [
+                    float(self._cost(region, face, corners[[row]], normal[[row]])[0])
+                    for face in range(len(boundary.faces))
+                ]
+                best[row] = int(np.argmin(costs))
+        return best
+
+    def _cost(self, region: int, face: int, corners: Array, normal: Array) -> Array:
+        """How badly (k,) triangles fit a face."""
+        boundary = self._surface.regions[region].boundary
+        carrier = boundary.carriers[boundary.faces[face].carrier]
+        outward = boundary.faces[face].outward * carrier.normal(carrier.foot(corners.mean(axis=1)))
+        off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._epsilon
+        return np.asarray(off + TURNED * (1 - dot(outward, normal)))
