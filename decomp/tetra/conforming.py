@@ -2,7 +2,7 @@
 
 Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
 node has no room there it is merged with a neighbour, or the sheet is taken off the face that it is
-on, and all is done again.
+on, and all is done again. At last tetrahedra with small angles are exchanged for better ones.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 from decomp.complex.refine_elements import Elements
 from decomp.tetra.collapsing import collapsed
 from decomp.tetra.faces import faces_of
+from decomp.tetra.flipping import flipped
 from decomp.tetra.layout import Layout
 from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
@@ -23,6 +24,8 @@ from decomp.tetra.targets import Finder
 from decomp.vectors import Array, Ints
 
 ROUNDS = 6
+FLIPS = 3
+"""How often tetrahedra with small angles are exchanged and nodes smoothed again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,5 +84,13 @@ def conformed(
             break
         points, tets, part = mended
     projector.smooth()
+    for _ in range(FLIPS):
+        better = flipped(projector.points, tets, part, tagged.triangles)
+        if better is None:
+            break
+        tets, part = better
+        projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
+        left = projector.settle()
+        projector.smooth()
     off = strayed(projector.points, tagged, plan, elements, diagonal)
     return Conformed(projector.points, tets, part, tagged, np.union1d(left, off))
