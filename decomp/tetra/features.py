@@ -40,7 +40,8 @@ def usual_epsilon(geometry: Geometry, length: float) -> float:
     smallest = min(region.diagonal for region in geometry.regions)
     epsilon = min(USUAL * smallest, OF_LENGTH * length)
     sharpest = min(sharpest_angle(region) for region in geometry.regions) / 2
-    epsilon *= min(1.0, float(np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))))
+    narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))
+    epsilon *= min(1.0, float(narrow**2))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
     return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
 
