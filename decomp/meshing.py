@@ -23,6 +23,7 @@ from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import conformed
+from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import size_field
 from decomp.tetra.fields import checked_fields, with_fields
@@ -41,6 +42,8 @@ CHORD, COARSEST = 0.4, 0.6
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
+LIMIT, LIMIT_PER_TET = 600.0, 5e-3
+"""Seconds that TetWild may take, in all and for each expected tetrahedron."""
 
 SURFACE = 0.3
 """Which part of the whole is behind when there is a complex."""
@@ -59,7 +62,7 @@ def mesh(
     volumes: Literal["cells", "regions"] = "cells",
     sheets: bool = True,
     fields: Sequence[str] = (),
-    timeout: float = 600.0,
+    timeout: float | None = None,
     progress: Progress | None = None,
 ) -> TetMesh:
     """Mesh a model.
@@ -75,7 +78,8 @@ def mesh(
         sheets: whether triangles between the cells of a region are tagged.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
-        timeout: seconds that TetWild may take.
+        timeout: seconds that TetWild may take; by default ten minutes, or 5 ms for each expected
+            tetrahedron where that is more.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
@@ -110,7 +114,8 @@ def mesh(
     plan = layout(made, known)
     tell("TetWild", 0.4)
     soup = _used(plan.complex.points, plan.triangles)
-    raw = tetrahedralized(*soup, settings, field, timeout, lambda note: tell(note, 0.5))
+    limit = timeout or max(LIMIT, LIMIT_PER_TET * expected_tets(geometry, wish, sizes))
+    raw = tetrahedralized(*soup, settings, field, limit, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
     part = classified(geometry, known, raw.points, raw.tets, epsilon)

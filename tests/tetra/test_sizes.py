@@ -8,6 +8,7 @@ import pytest
 import decomp
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.csg.solid import Solid
+from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, least_thickness, usual_epsilon
 from decomp.tetra.field import grid_lines, kuhn, size_field
 from decomp.tetra.sizes import SLOPE, Wanted, Wishes, curvatures, region_sizes, wishes
@@ -130,3 +131,13 @@ def test_epsilon_fits_walls_and_gaps() -> None:
     assert fitting_epsilon(geometry, surface, 0.05) < 0.02
     geometry, surface = surface_of(SOLIDS["block"].make())
     assert fitting_epsilon(geometry, surface, 0.01) == 0.01
+
+
+def test_the_number_of_tetrahedra_is_known_before() -> None:
+    block = decomp.Block((0, 0, 0), (4, 3, 2), name="block")
+    geometry, surface = surface_of(block)
+    wanted = Wanted(size=0.25)
+    sizes = region_sizes(geometry, wanted)
+    expected = expected_tets(geometry, wishes(geometry, surface, wanted), sizes)
+    assert expected == pytest.approx(24 * 6 * 2**0.5 / 0.25**3, rel=0.01)
+    assert expected / 2 < len(decomp.mesh(geometry, size=0.25).tets) < 2 * expected
