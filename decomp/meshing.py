@@ -25,7 +25,7 @@ from decomp.tetra.classify import classified
 from decomp.tetra.conforming import conformed
 from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
-from decomp.tetra.field import size_field
+from decomp.tetra.field import first_length, size_field
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import layout
@@ -108,8 +108,8 @@ def mesh(
     epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
     if made.tolerance > COARSEST * epsilon:
         made = maker.made(CHORD * epsilon, by_face)
-    settings = Settings(float(wish.lengths.max()), epsilon)
     field = size_field(geometry, wish, sizes)
+    settings = Settings(first_length(wish, field), epsilon)
     known = cell_map(made)
     plan = layout(made, known)
     tell("TetWild", 0.4)

@@ -1,10 +1,15 @@
-"""The size field as TetWild takes it: lengths at the nodes of a grid of tetrahedra."""
+"""The size field as TetWild takes it: lengths at the nodes of a background mesh.
+
+The background is the Delaunay mesh of the corners of an octree's cells, which are about as wide as
+the lengths wanted in them: fine where these are short, and coarse in what is empty.
+"""
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Callable
 
 import numpy as np
+from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
 from decomp.geometry import Geometry
 from decomp.tetra.child import SizeField
@@ -12,14 +17,25 @@ from decomp.tetra.sizes import SLOPE, Wishes
 from decomp.vectors import Array, Ints
 
 MARGIN = 0.2
-"""How far the grid reaches beyond the model, in parts of its diagonal."""
-FINE = 400
-MOST = 28
-"""The most grid lines along an axis."""
-SPACING = 1.2
-"""Grid lines are so many edge lengths apart."""
+"""How far the background reaches beyond the model, in parts of its diagonal."""
+WIDTH = 2.0
+"""Cells are at most so many of the shortest lengths in them wide."""
+DEEPEST = 12
+"""How often cells are halved at most."""
+SHAKEN = 1e-3
+"""Corners are moved by this part of the least cell, lest eight of them lie on a sphere."""
+CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 UNIFORM = 1.15
-"""Lengths that differ by no more than this factor need no field."""
+"""Lengths that differ by no more than this factor need no field,"""
+HOLLOW = 5.0
+"""unless one length all over the box gives more than so many times as many tetrahedra as a field
+that grows outside the model does: TetWild fills the box, and a field takes it two more passes."""
+PROBES = 4000
+AROUND = 0.05
+"""How far TetWild's box reaches beyond the model, in parts of its diagonal."""
+
+Lengths = Callable[[Array], Array]
+"""Points (k, 3) -> lengths (k,)."""
 
 
 def size_field(geometry: Geometry, wish: Wishes, sizes: Array) -> SizeField | None:
@@ -30,42 +46,76 @@ def size_field(geometry: Geometry, wish: Wishes, sizes: Array) -> SizeField | No
         wish: lengths at points.
         sizes: (r,) the largest length in each region.
     """
-    if wish.lengths.max() <= UNIFORM * wish.lengths.min():
+    if is_uniform(wish) and not is_hollow(geometry, wish):
         return None
+    within = np.append(sizes, np.inf)
+
+    def lengths(points: Array) -> Array:
+        region = geometry.index.region_of(points)
+        return np.asarray(np.minimum(wish.at(points), within[region]))
+
+    low, high = _box(geometry, MARGIN)
+    points = octree_corners(low, float((high - low).max()), lengths)
+    return SizeField(points, delaunay(points), lengths(points))
+
+
+def first_length(wish: Wishes, field: SizeField | None) -> float:
+    """The length with which TetWild begins all over; the field refines that afterwards."""
+    if field is not None and is_uniform(wish):
+        return float(field.sizes.max())
+    return float(wish.lengths.max())
+
+
+def is_uniform(wish: Wishes) -> bool:
+    """Whether all lengths are about the same."""
+    return bool(wish.lengths.max() <= UNIFORM * wish.lengths.min())
+
+
+def is_hollow(geometry: Geometry, wish: Wishes, seed: int = 0) -> bool:
+    """Whether a model leaves so much of its box empty that a field is worth its passes."""
+    probes = np.random.default_rng(seed).uniform(*_box(geometry, AROUND), size=(PROBES, 3))
+    share = float(np.mean((wish.lengths.min() / wish.at(probes)) ** 3))
+    return HOLLOW * share < 1
+
+
+def octree_corners(low: Array, width: float, lengths: Lengths, seed: int = 0) -> Array:
+    """The corners (n, 3) of cells that are about as wide as lengths in them, a little shaken.
+
+    Args:
+        low: (3,) the lowest corner of the whole.
+        width: of the whole.
+        lengths: wanted; they grow by `SLOPE` for each unit of way at most.
+        seed: of the shaking.
+    """
+    cells = np.zeros((1, 3), dtype=np.int64)
+    corners = []
+    depth = 0
+    while len(cells):
+        step = width / 2**depth
+        found = lengths(low + (cells + 0.5) * step)
+        wide = step > WIDTH * np.maximum(found - SLOPE * step * np.sqrt(3) / 2, 0)
+        wide &= (step > WIDTH * float(found.min())) & (depth < DEEPEST)
+        scale = 2 ** (DEEPEST - depth)
+        corners.append(((cells[~wide][:, None] + CORNERS) * scale).reshape(-1, 3))
+        cells = (2 * cells[wide][:, None] + CORNERS).reshape(-1, 3)
+        depth += 1
+    grid = np.unique(np.concatenate(corners), axis=0)
+    shake = SHAKEN * width / 2 ** (depth - 1)
+    shaken = np.random.default_rng(seed).uniform(-shake, shake, size=grid.shape)
+    return np.asarray(low + grid * (width / 2**DEEPEST) + shaken)
+
+
+def delaunay(points: Array) -> Ints:
+    """The Delaunay tetrahedra (m, 4) of points (n, 3), positively oriented."""
+    tets = Delaunay(points).simplices.astype(np.int64)
+    a, b, c, d = np.moveaxis(points[tets], 1, 0)
+    turned = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) < 0
+    tets[turned] = tets[turned][:, [1, 0, 2, 3]]
+    return np.asarray(tets)
+
+
+def _box(geometry: Geometry, beyond: float) -> tuple[Array, Array]:
+    """The lowest and the highest corner of a box around the model."""
     bounds = np.array([region.bounds for region in geometry.regions])
-    low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    margin = MARGIN * geometry.diagonal
-    lines = [grid_lines(low[k] - margin, high[k] + margin, wish, k) for k in range(3)]
-    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
-    region = geometry.index.region_of(points)
-    inside = np.append(sizes, np.inf)[region]
-    return SizeField(
-        points, kuhn(*(len(line) for line in lines)), np.minimum(wish.at(points), inside)
-    )
-
-
-def grid_lines(low: float, high: float, wish: Wishes, axis: int) -> Array:
-    """Coordinates along an axis, dense where lengths are small."""
-    fine = np.linspace(low, high, FINE)
-    length = np.full(FINE, np.inf)
-    bins = np.clip(np.searchsorted(fine, wish.points[:, axis]), 0, FINE - 1)
-    np.minimum.at(length, bins, wish.lengths)
-    gap = np.abs(fine[:, None] - fine[None, :])
-    length = (length[None, :] + SLOPE * gap).min(axis=1)
-    count = np.concatenate([[0.0], np.cumsum(np.diff(fine) / (length[1:] + length[:-1]) * 2)])
-    number = int(np.clip(np.ceil(count[-1] / SPACING), 4, MOST))
-    return np.asarray(np.interp(np.linspace(0, count[-1], number + 1), count, fine))
-
-
-def kuhn(nx: int, ny: int, nz: int) -> Ints:
-    """Tetrahedra (m, 4) over the nodes of a grid, six to a box, conforming."""
-    i, j, k = np.meshgrid(np.arange(nx - 1), np.arange(ny - 1), np.arange(nz - 1), indexing="ij")
-    base = (i * ny * nz + j * nz + k).reshape(-1)
-    step = (ny * nz, nz, 1)
-    found = []
-    for order in itertools.permutations(range(3)):
-        corners = [base]
-        for axis in order:
-            corners.append(corners[-1] + step[axis])
-        found.append(np.stack(corners, axis=1))
-    return np.concatenate(found)
+    margin = beyond * geometry.diagonal
+    return bounds[:, 0].min(axis=0) - margin, bounds[:, 1].max(axis=0) + margin

@@ -71,20 +71,15 @@ class Wishes:
     points: Array
     lengths: Array
 
-    def at(self, places: Array, blur: Array | float = 0.0) -> Array:
-        """The field (k,) at places (k, 3): the least of all wishes, grown with the distance.
-
-        Args:
-            places: (k, 3).
-            blur: (k,) distances to which lengths do not grow.
-        """
+    def at(self, places: Array) -> Array:
+        """The field (k,) at places (k, 3): the least of all wishes, grown with the distance."""
         found = np.full(len(places), np.inf)
         least = float(self.lengths.min())
         classes = np.floor(np.log(self.lengths / least) / np.log(STEP)).astype(np.int64)
         for number in np.unique(classes).tolist():
             rows = classes == number
             length = least * STEP**number
-            gap = np.maximum(cKDTree(self.points[rows]).query(places)[0] - blur, 0)
+            gap, _ = cKDTree(self.points[rows]).query(places)
             found = np.minimum(found, length + SLOPE * gap)
         return found
 

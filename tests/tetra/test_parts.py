@@ -16,7 +16,6 @@ from decomp.medial.region_curves import region_curves
 from decomp.tetra.collapsing import collapsed
 from decomp.tetra.content import contents
 from decomp.tetra.faces import faces_of, least_dihedral, volumes
-from decomp.tetra.field import kuhn
 from decomp.tetra.lifting import lifted
 from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
@@ -29,10 +28,13 @@ from tests.solids import SOLIDS
 
 
 def grid(n: int) -> tuple[Array, Ints]:
-    """A unit cube of n^3 boxes in positive tetrahedra."""
+    """A unit cube of n^3 boxes, each in six positive tetrahedra around a diagonal."""
     line = np.linspace(0, 1, n + 1)
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-    tets = kuhn(n + 1, n + 1, n + 1)
+    number = np.arange((n + 1) ** 3).reshape(n + 1, n + 1, n + 1)
+    base, step = number[:-1, :-1, :-1].reshape(-1, 1), np.array([(n + 1) ** 2, n + 1, 1])
+    orders = itertools.permutations(step.tolist())
+    tets = np.concatenate([base + np.cumsum([0, *order]) for order in orders])
     turned = volumes(points, tets) < 0
     tets[turned] = tets[turned][:, [0, 1, 3, 2]]
     return points, tets

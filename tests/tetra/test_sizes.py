@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.interpolate import griddata  # type: ignore[import-untyped]
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 import decomp
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, least_thickness, usual_epsilon
-from decomp.tetra.field import grid_lines, kuhn, size_field
+from decomp.tetra.field import WIDTH, first_length, is_uniform, octree_corners, size_field
 from decomp.tetra.sizes import SLOPE, Wanted, Wishes, curvatures, region_sizes, wishes
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.vectors import direction, vector
@@ -57,20 +59,50 @@ def test_lengths_grow_by_a_slope() -> None:
     assert near.all()
 
 
-def test_the_grid_is_filled_by_its_tetrahedra() -> None:
-    lines = [np.array([0.0, 1, 3]), np.array([0.0, 2]), np.array([0.0, 0.5, 1, 4])]
-    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
-    corners = points[kuhn(3, 2, 4)]
-    edges = corners[:, 1:] - corners[:, :1]
-    assert np.abs(np.linalg.det(edges)).sum() / 6 == pytest.approx(3 * 2 * 4)
+def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
+    geometry, surface = surface_of(SOLIDS["cylinder"].make())
+    wanted = Wanted()
+    wish, sizes = wishes(geometry, surface, wanted), region_sizes(geometry, wanted)
+    field = size_field(geometry, wish, sizes)
+    assert field is not None
+    low, high = np.array(geometry.regions[0].bounds)
+    volume = np.abs(
+        np.linalg.det(field.points[field.tets[:, 1:]] - field.points[field.tets[:, :1]])
+    )
+    assert volume.sum() / 6 > np.prod(high - low)
+    places = np.random.default_rng(0).uniform(low, high, size=(2000, 3))
+    found = griddata(field.points, field.sizes, places)
+    inside = geometry.index.region_of(places) == 0
+    exact = np.minimum(wish.at(places), np.where(inside, sizes[0], np.inf))
+    assert (found > 0.6 * exact).all()
+    assert (found < 1.7 * exact).all()
 
 
-def test_grid_lines_are_dense_where_lengths_are_small() -> None:
+def test_cells_are_small_where_lengths_are() -> None:
     wish = Wishes(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]))
-    lines = grid_lines(-2.0, 12.0, wish, 0)
-    steps = np.diff(lines)
-    assert lines[[0, -1]].tolist() == [-2.0, 12.0]
-    assert steps[np.argmin(np.abs(lines[:-1]))] < 0.3 * steps.max()
+    corners = octree_corners(np.full(3, -2.0), 14.0, wish.at)
+    assert corners.min() == pytest.approx(-2, abs=0.01)
+    assert corners.max() == pytest.approx(12, abs=0.01)
+    near, far = (
+        np.diff(np.sort(np.linalg.norm(corners - at, axis=1))[:2])[0]
+        for at in corners[cKDTree(corners).query([[0, 0, 0], [10, 0, 0]])[1]]
+    )
+    assert 0.03 < near < WIDTH * 0.1 * 1.1
+    assert near < 0.3 * far
+
+
+def test_what_is_empty_is_coarse() -> None:
+    shell = decomp.Sphere((0, 0, 0), 1, name="outer") - decomp.Sphere((0, 0, 0), 0.9, name="inner")
+    geometry, surface = surface_of(shell)
+    wanted = Wanted(size=0.05)
+    wish, sizes = wishes(geometry, surface, wanted), region_sizes(geometry, wanted)
+    assert is_uniform(wish)
+    field = size_field(geometry, wish, sizes)
+    assert field is not None
+    assert first_length(wish, field) > 4 * 0.05
+    radius = np.linalg.norm(field.points, axis=1)
+    assert field.sizes[(radius > 0.9) & (radius < 1)].max() <= 0.05
+    assert field.sizes[np.argmin(radius)] > 0.2
 
 
 def test_uniform_wishes_need_no_field() -> None:
