@@ -14,6 +14,7 @@ from decomp.tracing.probing import APART
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.tracing.stretch import Stretch
+from decomp.tracing.vertex_fins import at_vertex
 from decomp.tracing.walls import Walls, cross
 from decomp.vectors import Array, norm, place
 
@@ -43,6 +44,7 @@ class SeamStops:
         base, state, spot = found
         if float(norm(state.feet[contact] - spot)) <= FOOT_ON_EDGE * self._size:
             state.feet[contact] = spot
+        state = self._exactly(state)
         return stretch.cut(base, state, self._size), state
 
     def joining(self, stretch: Stretch, count: int) -> tuple[int, State]:
@@ -88,9 +90,13 @@ class SeamStops:
             for contact in nearest_pair(last):
                 found = self._wall_near(stretch, count, stretch.sites[contact], last.feet[contact])
                 if found is not None:
-                    base, state, _ = found
+                    base, state = found[0], self._exactly(found[1])
                     return stretch.cut(base, state, self._size), state
         return self.merging(stretch, count) or (count, last)
+
+    def _exactly(self, state: State) -> State:
+        """A crossing with a wall, exactly also where two feet run together at a vertex there."""
+        return at_vertex(self._points, state, nearest_pair(state)) or state
 
     def merging(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where two contacts run together inside a site, near the last of `count` rows.

@@ -12,7 +12,7 @@ from math import pi, sqrt
 import numpy as np
 
 from decomp.vectors import Array, norm
-from decomp.voronoi.exact import floats, inner, minus
+from decomp.voronoi.exact import cross, floats, inner, minus
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, rational
 from decomp.voronoi.position import Axis, aligned
@@ -158,9 +158,5 @@ def tubes_for_cones(
 
 def _plane_of_axes(f: CylinderSite, g: CylinderSite, axis: Axis) -> Polynomial:
     a, b = f.axis, minus(g.point, axis.foot(g.point))
-    normal = (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
+    normal = cross(a, b)
     return Polynomial.of(linear(normal, -inner(normal, f.point)), f.point)

@@ -47,7 +47,7 @@ def degenerate(
         return None
     if not len(met):
         return shape(Kind.EMPTY, middle, np.array([0.0, 0.0, 1.0]))
-    lines = tuple(_normal_line(f, g, p) for p in met)
+    lines = tuple(_normal_line(f, g, p, tolerance) for p in met)
     if len(lines) == 1:
         return lines[0]
     return Shape(Kind.LINE, lines[0].origin, lines[0].axes, {}, lines)
@@ -102,13 +102,13 @@ def _geometry(site: VoronoiSite, middle: Array, reach: float) -> Carrier | Curve
     return Circle(ring.centre, *frame(ring.axis), ring.major)
 
 
-def _normal_line(f: VoronoiSite, g: VoronoiSite, p: Array) -> Shape:
+def _normal_line(f: VoronoiSite, g: VoronoiSite, p: Array, tolerance: float) -> Shape:
     """The common normal at a point of contact; a point where there is none."""
     for site in (f, g):
         if not site.two_sided or not isinstance(site, CarrierSite):
             continue
         carrier = site.carrier
-        if isinstance(carrier, Cone) and float(norm(p - carrier.apex)) <= 1e-9 * float(norm(p)):
+        if isinstance(carrier, Cone) and float(norm(p - carrier.apex)) <= tolerance:
             continue
         return shape(Kind.LINE, p, carrier.normal(p))
     return shape(Kind.POINT, p, np.array([0.0, 0.0, 1.0]))

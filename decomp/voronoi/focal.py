@@ -14,7 +14,7 @@ from math import atan, atan2, cos, sin, sqrt
 import numpy as np
 
 from decomp.vectors import Array
-from decomp.voronoi.exact import Vector, floats, inner, length, minus, moved
+from decomp.voronoi.exact import Vector, cross, floats, inner, length, minus, moved
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, squared_distance_from_line
 from decomp.voronoi.position import Axis
@@ -106,7 +106,7 @@ def focal_surface(
         return found, None
     if found.kind is Kind.PLANE:
         normal = form.axis.direction, form.gradient
-        raw = linear(_cross(*normal), -inner(_cross(*normal), form.axis.point))
+        raw = linear(cross(*normal), -inner(cross(*normal), form.axis.point))
         return found, Polynomial.of(raw, form.axis.point)
     return found, form.polynomial()
 
@@ -159,11 +159,3 @@ def _degenerate(origin: Array, z: Array, x: Array | None, slope: float, angle: f
     if slope <= 1 + angle:
         return shape(Kind.PLANE, origin, np.cross(z, x), x)
     return plane_pair(origin, z, x, atan(sqrt(slope**2 - 1)))
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

@@ -15,6 +15,7 @@ from decomp.voronoi.differences import (
 from decomp.voronoi.focal import focal_form, focal_surface
 from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.position import Axis, aligned, common_axis
+from decomp.voronoi.rings import ring_and_level_tube, threaded_rings
 from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import (
     CarrierSite,
@@ -65,4 +66,13 @@ def recognise(
         level = abs(float(Axis(f.centre, f.axis).height(g.centre))) <= tolerance
         equal = abs(float(f.minor - e * g.minor)) <= tolerance
         return level_rings(f, g, tolerance, angle) if level and equal else None
+    if isinstance(f, CylinderSite) and isinstance(g, TorusSite):
+        return recognise(g, f, e, tolerance, angle)
+    if isinstance(f, TorusSite) and isinstance(g, CylinderSite):
+        equal = abs(float(f.minor - e * g.radius)) <= tolerance
+        return ring_and_level_tube(f, g, tolerance, angle) if equal else None
+    if isinstance(f, TorusSite) and isinstance(g, TorusSite):
+        threaded = threaded_rings(f, g, e, tolerance, angle)
+        if threaded is not None:
+            return threaded
     return about_one_sphere(f, g, e, tolerance, angle)

@@ -27,7 +27,7 @@ from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.recognise import recognise
 from decomp.voronoi.shape import Shape
-from decomp.voronoi.sites import CarrierSite, SphereSite, VoronoiSite, of_carrier
+from decomp.voronoi.sites import CarrierSite, ConeSite, SphereSite, VoronoiSite, of_carrier
 
 ALGEBRAIC = (CarrierSite, ConicSite)
 """Sites whose offsets have an equation."""
@@ -217,9 +217,11 @@ def surface(
     found = None
     if isinstance(one, CarrierSite) and isinstance(two, CarrierSite):
         found = recognise(one, two, which.sign, TOLERANCE * size, TOLERANCE)
-    if found is not None:
-        return VoronoiSurface(one, two, which, size, found[0], True, found[1])
     bare = None
-    if not exists and (one.two_sided or two.two_sided):
+    # what is recognised by position holds for whole cones, both nappes together
+    doubtful = found is None or any(isinstance(site, ConeSite) for site in (one, two))
+    if doubtful and not exists and (one.two_sided or two.two_sided):
         bare = degenerate(one, two, which.sign, TOLERANCE * size, own)
+    if found is not None:
+        return VoronoiSurface(one, two, which, size, bare or found[0], True, found[1])
     return VoronoiSurface(one, two, which, size, bare, False, None)

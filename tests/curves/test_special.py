@@ -164,6 +164,12 @@ def test_higher_contact_is_refused_by_place() -> None:
         intersect(cylinder, torus, ORIGIN, 5.0, 1e-9)
 
 
+def test_rings_that_fill_each_other_are_refused() -> None:
+    """They touch along two circles, a meridian of each, which cross."""
+    with pytest.raises(ContactError, match="along a circle"):
+        intersect(Torus(ORIGIN, Z, 2.0, 1.0), Torus(2 * X, Y, 2.0, 1.0), ORIGIN, 40.0, 1e-9)
+
+
 def test_curves_beyond_the_window_are_left_out() -> None:
     assert not intersect(Plane(9 * X, X), Sphere(9 * X, 1.0), ORIGIN, 5.0, 1e-9).curves
     assert not intersect(Plane(9 * X, X), Plane(9 * Y, Y), ORIGIN, 5.0, 1e-9).curves

@@ -13,6 +13,7 @@ from decomp.certificate.evidence import Evidence
 from decomp.complex.model import PatchKind
 from tests.corpus.files import FILES
 from tests.skeleton.computed import TOLERANCE, param, skeleton_of, source_of
+from tests.skeleton.on_equations import off_equations
 from tests.skeleton.shapes import SHAPES
 from tests.solids import SOLIDS
 
@@ -43,6 +44,7 @@ def test_certificate(name: str) -> None:
             assert total == pytest.approx(region.boundary.volume, rel=1e-3)
             assert all(cell.volume > 0 for cell in cells)
         assert len(region.face_cells) == len(region.boundary.faces)
+    assert off_equations(skeleton) <= 1e-10
     used = [patch.triangles for patch in skeleton.complex.patches]
     assert np.isfinite(points).all()
     assert all((triangles >= 0).all() and (triangles < len(points)).all() for triangles in used)

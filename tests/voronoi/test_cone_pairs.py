@@ -11,8 +11,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from decomp.voronoi import ConeSite, Kind, TorusSite, surface
-from decomp.voronoi.exact import Vector
-from tests.voronoi.independent import check
+from decomp.voronoi.exact import Vector, floats
+from tests.voronoi.independent import check, equidistant_points
 from tests.voronoi.instances import FEW, across, angles, at, numbers, on, points, radii, ways
 
 Angle = tuple[Fraction, Fraction]
@@ -25,17 +25,47 @@ def reverse(way: Vector) -> Vector:
 @FEW
 @given(points, ways, angles, angles, numbers)
 def test_coaxial(p: Vector, way: Vector, one: Angle, two: Angle, h: Fraction) -> None:
-    """(i) Cones: the bisectors of the rulings, turned."""
+    """(i) Cones: the bisectors of the rulings, turned. One inside the other there is no even one.
+
+    It is the apex alone if they share it.
+    """
     assume(one != two)
     f, g = ConeSite(p, way, *one), ConeSite(at(p, way, h), way, *two)
     a, b = f.carrier.angle, g.carrier.angle
     for parity, half in (("odd", (a + b) / 2), ("even", pi / 2 - (a + b) / 2)):
         found = surface(f, g, parity)
+        if parity == "even" and float(h) * (b - a) <= 0:
+            assert found.kind is (Kind.EMPTY if h else Kind.POINT)
+            check(found, needed=False)
+            continue
         assert found.kind is Kind.CIRCULAR_CONE
         assert found.degree == 2
         assert found.shape is not None
         assert found.shape.parameters["half_angle"] == pytest.approx(half)
         check(found, needed=False)
+
+
+@FEW
+@given(points, ways, angles, angles, st.integers(0, 9))
+def test_back_to_back(p: Vector, way: Vector, one: Angle, two: Angle, h: int) -> None:
+    """(i) Opening away from each other: a plane half-way for equal angles, else a cone (even).
+
+    Its half-angle is 90 degrees less half the difference. There is no odd surface, but the apex
+    if they share it.
+    """
+    f, g = ConeSite(p, way, *one), ConeSite(at(p, way, Fraction(-h)), reverse(way), *two)
+    even, odd = surface(f, g, "even"), surface(f, g, "odd")
+    assert odd.kind is (Kind.EMPTY if h else Kind.POINT)
+    assert even.shape is not None
+    if one == two:
+        assert (even.kind, even.degree) == (Kind.PLANE, 1)
+        assert even.shape.deviation(floats(at(p, way, Fraction(-h, 2)))) <= 1e-12
+    else:
+        half = pi / 2 - abs(f.carrier.angle - g.carrier.angle) / 2
+        assert (even.kind, even.degree) == (Kind.CIRCULAR_CONE, 2)
+        assert even.shape.parameters["half_angle"] == pytest.approx(half)
+    check(even)
+    assert not len(equidistant_points(odd, seed=1, count=60))
 
 
 @FEW

@@ -55,3 +55,9 @@ def test_what_there_is(f: CarrierSite, g: CarrierSite, even: Kind, odd: Kind) ->
             assert found.shape is not None
             assert found.shape.deviation(points).max(initial=0.0) <= 1e-5 * found.size
             assert found.contains(found.shape.origin)
+
+
+@pytest.mark.parametrize("y", [0, -1, "1/3"])
+def test_line_through_an_apex(y: str) -> None:
+    """It meets the inside of the cone nowhere: the apex alone, wherever the line's own point is."""
+    assert surface(CONE, CylinderSite((0, y, 0), (0, 1, 0), 0), "odd").kind is Kind.POINT

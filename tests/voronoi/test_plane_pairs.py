@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from decomp.errors import InputError
 from decomp.voronoi import ConeSite, CylinderSite, Kind, PlaneSite, SphereSite, TorusSite, surface
 from decomp.voronoi.exact import Vector
-from tests.voronoi.independent import check
+from tests.voronoi.independent import check, equidistant_points
 from tests.voronoi.instances import (
     FEW,
     SITES,
@@ -186,8 +186,12 @@ def test_cone(p: Vector, some: list[Vector], angle: tuple[Fraction, Fraction], h
     f = PlaneSite(on(p, some[0], h), some[0])
     g = ConeSite(p, some[1], *angle)
     for parity in PARITIES:
-        found = surface(f, g, parity)
+        found, true = surface(f, g, parity, exists=True), surface(f, g, parity)
         assert found.shape is not None
+        if true.kind.dimension < 2:
+            # the plane does not meet the cone, or only at its apex
+            assert (true.kind is Kind.LINE) == (h == 0)
+            assert not len(equidistant_points(true, seed=1, count=60))
         if found.kind in (Kind.CIRCULAR_CONE, Kind.ELLIPTIC_CONE):
             away = found.shape.origin - g.carrier.apex
             assert np.allclose(np.cross(away, g.carrier.axis), 0, atol=1e-9)

@@ -11,10 +11,14 @@ import numpy as np
 
 from decomp.curves.intersect.pulled import Pulled
 from decomp.curves.polynomial import Complex, polynomial_roots
+from decomp.errors import ContactError
 from decomp.vectors import Array
 
 REAL = 1e-6
 """Distance of w from the unit circle (logarithm) up to which it counts as on it."""
+
+DOUBLE = 1e-5
+"""Zeros nearer than this, and so near to the unit circle, are a double one but for rounding."""
 
 
 def zeros(f: Pulled, u: Array, low: float, high: float, count: int | None = None) -> list[Array]:
@@ -81,7 +85,13 @@ def fold_candidates(f: Pulled, width: float) -> list[tuple[float, float]]:
     Args:
         f: the function.
         width: how far from the unit circle (logarithm of the modulus) z may be.
+
+    Raises:
+        ContactError: F = F_v = 0 on a whole circle v = const.
     """
+    if f.m == 0:
+        _refuse_double_zero(f)
+        return []
     z = _discriminant_roots(f) if f.n <= 2 else _sylvester_roots(f)
     z = z[(np.abs(z) > 0) & np.isfinite(z)]
     z = z[np.abs(np.log(np.abs(z))) < width]
@@ -100,6 +110,15 @@ def fold_candidates(f: Pulled, width: float) -> list[tuple[float, float]]:
         elif f.n == 2 and columns[2] != 0:
             found.append((float(u), float((-columns[1] / (2 * columns[2])).real)))
     return found
+
+
+def _refuse_double_zero(f: Pulled) -> None:
+    """F is the same on all isolines: zeros are circles, and a double one a contact along one."""
+    w = polynomial_roots(f.columns(np.zeros(1))[0])
+    w = w[np.abs(np.log(np.maximum(np.abs(w), 1e-300))) < DOUBLE]
+    gaps = np.abs(w[:, None] - w[None])[np.triu_indices(len(w), 1)]
+    if (gaps < DOUBLE).any():
+        raise ContactError("two carriers touch along a circle that cannot be resolved")
 
 
 def _discriminant_roots(f: Pulled) -> Complex:
