@@ -13,8 +13,8 @@ edges, gave 0.454174.
 
 At the three reentrant edges solutions grow with the power 2/3 of the distance. On meshes of one
 size the eigenvalue's error therefore goes down with the power 4/3 of the size in the end, with
-elements of any order (Babuska and Osborn, Eigenvalue problems, Handbook of Numerical Analysis II, 1991): with
-order 2 it does so at once, with order 1 the smooth part of the error, of power 2, still counts.
+elements of any order (Babuska and Osborn, Eigenvalue problems, Handbook of Numerical Analysis II,
+1991): with order 2 it soon does, with order 1 the smooth part of the error, of power 2, counts on.
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ import plate
 import sphere_modes
 import sweep
 import torus_modes
+import transformer
 import wall_distance
 
 HERE = Path(__file__).parent
@@ -59,6 +60,20 @@ def torus_modes_rows() -> Iterator[Row]:
     modes, exact = torus_modes.eigenvalues(0.15, 4), torus_modes.reference(4)
     for k in (0, 3):
         yield compared(f"eigenvalue {k + 1}", modes[k], exact[k])
+
+
+def transformer_rows() -> Iterator[Row]:
+    """Heat balances, and elements of order 1 beside those of order 2, with the picture."""
+    first = transformer.solved(*transformer.FIRST)
+    second = transformer.solved(*transformer.SECOND)
+    transformer.plot(second, str(HERE / "transformer.png"))
+    yield compared("heat out over heat made, by reactions", second.reactions, 1.0)
+    yield compared("heat out over heat made, by slopes on the tank", second.by_slope, 1.0)
+    yield compared("heat from a winding over heat made there", second.winding, 1.0)
+    hottest = [float(warm.rise.max()) for warm in (first, second)]
+    yield compared("greatest rise in K, order 1 beside order 2", *hottest)
+    what = "losses times temperatures, order 1 beside order 2"
+    yield compared(what, first.product, second.product)
 
 
 def fichera_rows() -> Iterator[Row]:
@@ -102,6 +117,7 @@ EXAMPLES: dict[str, Callable[[], Iterator[Row]]] = {
     "coaxial": coaxial_rows,
     "sphere_modes": sphere_modes_rows,
     "torus_modes": torus_modes_rows,
+    "transformer": transformer_rows,
     "fichera": fichera_rows,
     "plate": plate_rows,
     "sweep": sweep_rows,

@@ -60,6 +60,19 @@ def test_reference_of_the_torus_for_a_thin_one(m: int) -> None:
 
 
 @pytest.mark.slow
+def test_transformer() -> None:
+    module = example("transformer")
+    first, second = module.solved(2.5, 1), module.solved(6.0, 2)
+    for warm in (first, second):
+        assert warm.reactions == pytest.approx(1, rel=1e-9)
+    # measured 0.9993 and 1.0002; losses times temperatures 395.6 and 407.4
+    assert second.by_slope == pytest.approx(1, rel=5e-3)
+    assert second.winding == pytest.approx(1, rel=2e-2)
+    assert 0.93 < first.product / second.product < 1
+    assert second.product == pytest.approx(408.5, rel=1e-2)
+
+
+@pytest.mark.slow
 def test_fichera() -> None:
     """Ritz values above the exact one; order 2 gains much, but is far from the rate 4 of a ball."""
     module = example("fichera")
@@ -67,7 +80,7 @@ def test_fichera() -> None:
     coarse, fine = (module.solved(size, 2) for size in (0.2, 0.14))
     errors = [found / module.EXACT - 1 for _, found in (coarse, fine)]
     assert 0 < errors[1] < errors[0] < 0.012
-    assert np.log(errors[0] / errors[1]) / np.log(coarse[0] / fine[0]) < 2.7
+    assert np.log(errors[0] / errors[1]) / np.log(coarse[0] / fine[0]) < 3
     found = module.extrapolated(*zip(coarse, fine, strict=True))
     assert found == pytest.approx(module.EXPONENT, rel=2e-2)
     assert errors[0] < 0.25 * (module.solved(0.2, 1)[1] / module.EXACT - 1)
@@ -95,7 +108,7 @@ def test_wall_distance() -> None:
 
 
 def test_all_scripts_are_tested_and_in_the_table() -> None:
-    names = "heat coaxial sphere_modes torus_modes fichera plate sweep wall_distance"
+    names = "heat coaxial sphere_modes torus_modes transformer fichera plate sweep wall_distance"
     assert set(names.split()) == SCRIPTS
     table = (HERE / "README.md").read_text().split("<!-- table -->")[1].split("<!-- end -->")[0]
     assert all(f"]({name}.py)" in table for name in SCRIPTS)
