@@ -64,13 +64,19 @@ class Warm:
     product: float
 
 
-def solved(size: float, order: int) -> Warm:
-    """On a mesh with edges up to a size in cm."""
-    geometry = decomp.Geometry(MODEL)
-    made = {
-        region.name: LOSSES.get(region.name, 0.0) * region.volume for region in geometry.regions
-    }
-    mesh = decomp.mesh(geometry, size=size, order=order, volumes="regions").to_skfem()
+def meshed(size: float, order: int) -> skfem.Mesh:
+    """With edges up to a size in cm."""
+    return decomp.mesh(MODEL, size=size, order=order, volumes="regions").to_skfem()
+
+
+def losses() -> dict[str, float]:
+    """What each region makes, with its exact volume, in W."""
+    regions = decomp.Geometry(MODEL).regions
+    return {region.name: LOSSES.get(region.name, 0.0) * region.volume for region in regions}
+
+
+def solved(mesh: skfem.Mesh, order: int) -> Warm:
+    """With elements of an order."""
     element = skfem.ElementTetP1() if order == 1 else skfem.ElementTetP2()
     basis = skfem.Basis(mesh, element)
     matrix, load = 0, basis.zeros()
@@ -85,6 +91,7 @@ def solved(size: float, order: int) -> Warm:
     factors = splu(inner, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     rise[free] = factors.solve(load[free])
     reactions = float((load - matrix @ rise)[fixed].sum() / load.sum())
+    made = losses()
     leaves = CONDUCTIVITY["tank"] * fall(basis, rise, OUTSIDE) / sum(made.values())
     given = CONDUCTIVITY["primary"] * fall(basis, rise, GIVES) / made["primary"]
     return Warm(basis, rise, reactions, leaves, given, float(load @ rise))
@@ -136,7 +143,8 @@ def plot(warm: Warm, path: str) -> None:
 
 
 if __name__ == "__main__":
-    for warm in (solved(*FIRST), second := solved(*SECOND)):
+    second = solved(meshed(*SECOND), SECOND[1])
+    for warm in (solved(meshed(*FIRST), FIRST[1]), second):
         print(f"{warm.basis.N} unknowns, order {warm.basis.elem.maxdeg}:")
         print(
             f"  hottest {warm.rise.max():.3f} K, losses times temperatures {warm.product:.2f} W K"

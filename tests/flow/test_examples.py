@@ -64,14 +64,16 @@ def test_reference_of_the_torus_for_a_thin_one(m: int) -> None:
 @pytest.mark.slow
 def test_transformer() -> None:
     module = example("transformer")
-    first, second = module.solved(2.5, 1), module.solved(6.0, 2)
+    mesh = module.meshed(6.0, 2)
+    first, second = module.solved(mesh, 1), module.solved(mesh, 2)
     for warm in (first, second):
         assert warm.reactions == pytest.approx(1, rel=1e-9)
-    # measured 0.9993 and 1.0002; losses times temperatures 395.6 and 407.4
+    # measured: 0.9993, 1.0002, and 407.4 of 408.5 on finer meshes
     assert second.by_slope == pytest.approx(1, rel=5e-3)
     assert second.winding == pytest.approx(1, rel=2e-2)
-    assert 0.93 < first.product / second.product < 1
     assert second.product == pytest.approx(408.5, rel=1e-2)
+    # on one mesh functions of order 1 are among those of order 2
+    assert 0.9 * second.product < first.product < second.product
 
 
 @pytest.mark.slow
