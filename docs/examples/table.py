@@ -1,56 +1,149 @@
-"""Runs all examples; writes their figures into the table of README.md, and the plot beside it."""
+"""Runs the examples; writes their figures into the table of README.md, and the plots beside it.
+
+python docs/examples/table.py              all of them
+python docs/examples/table.py heat sweep   these, the other rows stay
+"""
 
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import coaxial
+import fichera
 import heat
+import numpy as np
 import plate
 import sphere_modes
+import sweep
+import torus_modes
+import transformer
 import wall_distance
 
 HERE = Path(__file__).parent
 
+Row = tuple[str, str, str, str]
+"""Figure, found, reference, how far off."""
 
-def rows() -> list[tuple[str, str, str, str, str]]:
-    """Example, figure, found, reference, how far off."""
-    found: list[tuple[str, str, str, str, str]] = []
 
-    def add(script: str, what: str, value: float, exact: float) -> None:
-        off = f"{value / exact - 1:.1e}"
-        found.append((script, what, f"{value:.5g}", f"{exact:.5g}", off))
+def compared(what: str, value: float, exact: float) -> Row:
+    """A figure beside its reference, with the relative difference."""
+    return what, f"{value:.5g}", f"{exact:.5g}", f"{value / exact - 1:.1e}"
 
+
+def heat_rows() -> Iterator[Row]:
+    """Rates of convergence, with the plot, and the heat flow."""
     convergence = {order: heat.convergence((0.2, 0.14, 0.1, 0.07), order) for order in (1, 2)}
     heat.plot(convergence, str(HERE / "heat.png"))
     for order, (_, _, slope) in convergence.items():
         what = f"rate of the temperature's error, order {order}"
-        found.append(("heat", what, f"{slope:.2f}", str(order + 1), ""))
-    flow = heat.solved(0.14, 2)[2]
-    add("heat", "heat flow over the exact one", 1 + flow, 1.0)
-    add("coaxial", "capacitance for each unit of length", coaxial.capacitance(0.15), coaxial.EXACT)
+        yield what, f"{slope:.2f}", str(order + 1), ""
+    yield compared("heat flow over the exact one", 1 + heat.solved(0.14, 2)[2], 1.0)
+
+
+def coaxial_rows() -> Iterator[Row]:
+    """The capacitance."""
+    yield compared("capacitance for each unit of length", coaxial.capacitance(0.15), coaxial.EXACT)
+
+
+def sphere_modes_rows() -> Iterator[Row]:
+    """The lowest eigenvalue and the next."""
     modes = sphere_modes.eigenvalues(0.3)
     for k in (0, 3):
-        add("sphere_modes", f"eigenvalue {k + 1}", modes[k], sphere_modes.EXACT[k])
-    add("plate", "stress concentration", plate.concentration(1.0, 60), plate.EXACT)
+        yield compared(f"eigenvalue {k + 1}", modes[k], sphere_modes.EXACT[k])
+
+
+def torus_modes_rows() -> Iterator[Row]:
+    """The lowest eigenvalue and one that counts twice."""
+    modes, exact = torus_modes.eigenvalues(0.15, 4), torus_modes.reference(4)
+    for k in (0, 3):
+        yield compared(f"eigenvalue {k + 1}", modes[k], exact[k])
+
+
+def transformer_rows() -> Iterator[Row]:
+    """Heat balances, and elements of order 1 beside those of order 2, with the picture."""
+    first, second = (
+        transformer.solved(transformer.meshed(size, order), order)
+        for size, order in (transformer.FIRST, transformer.SECOND)
+    )
+    transformer.plot(second, str(HERE / "transformer.png"))
+    yield compared("heat out over heat made, by reactions", second.reactions, 1.0)
+    yield compared("heat out over heat made, by slopes on the tank", second.by_slope, 1.0)
+    yield compared("heat from a winding over heat made there", second.winding, 1.0)
+    hottest = [float(warm.rise.max()) for warm in (first, second)]
+    yield compared("greatest rise in K, order 1 beside order 2", *hottest)
+    what = "losses times temperatures, order 1 beside order 2"
+    yield compared(what, first.product, second.product)
+
+
+def fichera_rows() -> Iterator[Row]:
+    """Rates of convergence, with the plot, and the exponent."""
+    results = {order: fichera.convergence(fichera.SIZES, order) for order in (1, 2)}
+    fichera.plot(results, str(HERE / "fichera.png"))
+    for order, (_, _, slope) in results.items():
+        what = f"rate of the eigenvalue's error, order {order}"
+        yield what, f"{slope:.2f}", f"{fichera.POWER:.2f} in the end", ""
+    q = fichera.extrapolated(*results[2][:2])
+    yield compared("exponent at the corner, extrapolated", q, fichera.EXPONENT)
+
+
+def plate_rows() -> Iterator[Row]:
+    """The stress concentration."""
+    yield compared("stress concentration", plate.concentration(1.0, 60), plate.EXACT)
+
+
+def sweep_rows() -> Iterator[Row]:
+    """Stiffness without hole, with a large one, and the loss by small ones, with the plot."""
+    found = [sweep.stiffness(sweep.meshed(radius), sweep.STEEL) for radius in sweep.RADII]
+    sweep.plot(sweep.RADII, found, str(HERE / "sweep.png"))
+    yield compared("stiffness without hole", found[0], 1.0)
+    k = sweep.RADII.index(5.0)
+    least, greatest = (values[k] for values in sweep.bounds(np.array(sweep.RADII)))
+    what = "stiffness with a hole of a quarter of the side"
+    yield what, f"{found[k]:.4f}", f"between {least:.2f} and {greatest:.2f}", ""
+    what = "stiffness that a small hole takes, by area"
+    yield compared(what, sweep.for_small_holes(sweep.SMALL), 3.0)
+
+
+def wall_distance_rows() -> Iterator[Row]:
+    """Largest errors."""
     names = ("largest error of the distance", "... of the thickness", "... of the mid-surface")
     for what, error in zip(names, wall_distance.errors(), strict=True):
-        found.append(("wall_distance", what, f"{error:.0e}", "0", ""))
-    return found
+        yield what, f"{error:.0e}", "0", ""
 
 
-def main() -> None:
-    """Write the table."""
-    lines = ["| script | figure | found | reference | off |", "|---|---|---|---|---|"]
-    for script, *rest in rows():
-        lines.append(f"| [{script}]({script}.py) | {' | '.join(rest)} |")
+EXAMPLES: dict[str, Callable[[], Iterator[Row]]] = {
+    "heat": heat_rows,
+    "coaxial": coaxial_rows,
+    "sphere_modes": sphere_modes_rows,
+    "torus_modes": torus_modes_rows,
+    "transformer": transformer_rows,
+    "fichera": fichera_rows,
+    "plate": plate_rows,
+    "sweep": sweep_rows,
+    "wall_distance": wall_distance_rows,
+}
+TABLE = re.compile(r"<!-- table -->\n(.*?)\n<!-- end -->", re.DOTALL)
+
+
+def main(names: list[str]) -> None:
+    """Write the table, with rows of the named examples, or of all, made anew."""
     page = HERE / "README.md"
     text = page.read_text()
+    found = TABLE.search(text)
+    old = found[1].splitlines()[2:] if found else []
+    lines = ["| script | figure | found | reference | off |", "|---|---|---|---|---|"]
+    for script, rows in EXAMPLES.items():
+        start = f"| [{script}]({script}.py) |"
+        if names and script not in names:
+            lines += [line for line in old if line.startswith(start)]
+        else:
+            lines += [f"{start} {' | '.join(row)} |" for row in rows()]
     table = "\n".join(["<!-- table -->", *lines, "<!-- end -->"])
-    old = re.compile(r"<!-- table -->.*?<!-- end -->", re.DOTALL)
-    page.write_text(old.sub(lambda _: table, text))
+    page.write_text(TABLE.sub(lambda _: table, text))
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
