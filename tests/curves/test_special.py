@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
-from decomp.curves import Circle, intersect
+from decomp.curves import Circle, Line, intersect
 from decomp.errors import ContactError
 from tests.curves.cases import ORIGIN, X, Y, Z, kinds, meet, unit
 
@@ -180,3 +180,13 @@ def test_circles_are_recognised() -> None:
     assert isinstance(one.curve, Circle)
     assert one.curve.radius == pytest.approx(np.tan(0.5), rel=1e-14)
     assert one.curve.period == pytest.approx(2 * pi)
+
+
+@pytest.mark.parametrize("tilt", [1e-12, 1e-11, 1e-10])
+@pytest.mark.parametrize("off", [0.0, 0.3, 0.9])
+def test_a_plane_all_but_parallel_to_an_axis_meets_the_cylinder_in_its_tangents(
+    tilt: float, off: float
+) -> None:
+    plane, cylinder = Plane(off * X, X), Cylinder(ORIGIN, unit(tilt, 0, 1), 1.0)
+    found = meet(plane, cylinder, 3.0)
+    assert [type(one.curve) for one in found.curves] == [Line, Line]

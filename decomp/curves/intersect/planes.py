@@ -53,15 +53,23 @@ def plane_cylinder(plane: Plane, cylinder: Cylinder, window: Window) -> Intersec
         across = n - c * k
         across = across / norm(across)
         touch = abs(abs(d) - r) <= window.tolerance
-        if not touch and abs(c) * window.radius > window.exact:
-            return None
+        slanted = abs(c) * window.radius > window.exact
         if abs(d) > r and not touch:
-            return Intersection()
+            return None if slanted else Intersection()
         h = 0.0 if touch else sqrt((r - d) * (r + d))
+        # the long ellipse leaves its tangents by (c R r)^2 / 2 h^3
+        if not touch and slanted and (c * window.radius * r) ** 2 > window.exact * h**3:
+            return None
         x = -np.copysign(r, d) if touch else -d
         side = np.cross(k, across)
-        starts = [middle + x * across + e * h * side for e in ((1,) if touch else (1, -1))]
-        lines = [clipped_line(p, k, window) for p in starts]
+        radial = [x * across + e * h * side for e in ((1,) if touch else (1, -1))]
+        ways = [
+            k if touch else np.cross(n, way) * np.sign(dot(np.cross(n, way), k)) for way in radial
+        ]
+        lines = [
+            clipped_line(middle + out, way / norm(way), window)
+            for out, way in zip(radial, ways, strict=True)
+        ]
         return Intersection(tuple(PairCurve(one, touch) for one in lines if one))
     a = r / abs(c)
     if a > LARGE * window.radius:
