@@ -25,11 +25,11 @@ def example(name: str) -> ModuleType:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("order", "rate"), [(1, 1.6), (2, 2.3)])
+@pytest.mark.parametrize(("order", "rate"), [(1, 1.6), (2, 2.5)])
 def test_heat_converges(order: int, rate: float) -> None:
-    lengths, errors, _ = example("heat").convergence((0.2, 0.1), order)
+    lengths, errors, _ = example("heat").convergence((0.3, 0.1), order)
     assert np.log(errors[0] / errors[1]) / np.log(lengths[0] / lengths[1]) > rate
-    assert errors[0] < (2e-2, 1e-3)[order - 1]
+    assert errors[1] < (5e-3, 2e-4)[order - 1]
 
 
 def test_coaxial() -> None:
