@@ -125,6 +125,12 @@ def test_no_command_shows_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert "examples:" in capsys.readouterr().out
 
 
+def test_as_a_module() -> None:
+    command = [sys.executable, "-m", "decomp", "info", str(MESHES / "flange.geo")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("model flange: 1 region")
+
+
 def test_help_loads_nothing_heavy() -> None:
     """`decomp --help` must start fast, so it must not import numerical packages."""
     code = (

@@ -14,6 +14,7 @@ from decomp.errors import FileError, InputError, ParseError
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
+    from decomp.csg.solid import Solid
 
 Format = Literal["geo", "csg", "json"]
 """Netgen, OpenSCAD, native."""
@@ -67,15 +68,16 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
             raise InputError(f"unknown format {form!r}; known are {', '.join(FORMATS)}")
 
 
-def save(model: Model, path: str | Path) -> None:
-    """Write a model as native JSON; the file is replaced at once or not at all.
+def save(source: Model | Solid | dict[str, Solid], path: str | Path) -> None:
+    """Write a model, a solid or named solids as native JSON, at once or not at all.
 
     Raises:
         FileError: the file cannot be written.
     """
+    from decomp.csg.model import Model, model
     from decomp.formats import native
 
-    text = native.dumps(model)
+    text = native.dumps(source if isinstance(source, Model) else model(source))
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise FileError("this is a directory; give the name of a file to write", path)

@@ -58,6 +58,13 @@ def test_save_and_load(tmp_path: Path) -> None:
     assert sorted(p.name for p in tmp_path.iterdir()) == ["again", "x.json"]
 
 
+def test_save_solids(tmp_path: Path) -> None:
+    ball = Sphere((0, 0, 0), 1)
+    save(ball, tmp_path / "one.json")
+    save({"a": ball, "b": Sphere((3, 0, 0), 1)}, tmp_path / "two.json")
+    assert [len(load(tmp_path / name).regions) for name in ("one.json", "two.json")] == [1, 2]
+
+
 def test_save_replaces_nothing_when_it_fails(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
