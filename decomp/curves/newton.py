@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.carriers import Carrier
-from decomp.vectors import Array, dot, norm
+from decomp.vectors import Array, cross, dot, norm
 
 SINGULAR = 1e-7
 """Sine of the angle between two normals below which they count as parallel."""
@@ -21,11 +21,11 @@ def lateral_step(a: Carrier, b: Carrier, p: Array, along: Array) -> Array:
     na, nb = a.normal(p), b.normal(p)
     na = na - dot(na, along)[..., None] * along
     nb = nb - dot(nb, along)[..., None] * along
-    det = dot(np.cross(na, nb), along)
+    det = dot(cross(na, nb), along)
     flat = np.abs(det) < SINGULAR
     safe = np.where(flat, 1.0, det)[..., None]
     # x with n_a.x = -fa and n_b.x = -fb:  (fa n_b - fb n_a) x along / det
-    step = -np.cross(fa[..., None] * nb - fb[..., None] * na, along) / safe
+    step = -cross(fa[..., None] * nb - fb[..., None] * na, along) / safe
     sign = np.where(dot(na, nb) < 0, -1.0, 1.0)
     least = -((fa + sign * fb) / 2)[..., None] * na
     return np.where(flat[..., None], least, step)
@@ -44,6 +44,6 @@ def onto_pair(a: Carrier, b: Carrier, p: Array, along: Array, steps: int = 6) ->
 
 def cross_direction(a: Carrier, b: Carrier, p: Array) -> tuple[Array, Array]:
     """Unit vectors along n_a x n_b and the lengths of these products (0 where parallel)."""
-    cross = np.cross(a.normal(p), b.normal(p))
-    size = norm(cross)
-    return cross / np.where(size > 0, size, 1.0)[..., None], size
+    product = cross(a.normal(p), b.normal(p))
+    size = norm(product)
+    return product / np.where(size > 0, size, 1.0)[..., None], size

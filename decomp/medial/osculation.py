@@ -82,7 +82,8 @@ class Osculation:
 
     def slope(self, spots: Array, across: Array) -> Array:
         """How K' . d changes along directions (k, 2), by differences."""
-        ahead, behind = (self.miss(spots + sign * DELTA * across) for sign in (1, -1))
+        both = np.concatenate([spots + DELTA * across, spots - DELTA * across])
+        ahead, behind = np.split(self.miss(both), 2)
         found = (ahead - behind) / (2 * DELTA)
         return np.where(found == 0, 1e-300, found)
 
@@ -100,11 +101,9 @@ class Osculation:
         """
         step = min(STEP * self._scale, LONGEST * self._size)
         tangent = cross_direction(self._one, self._other, feet)[0]
-        total = np.zeros_like(feet)
-        for weight, k in zip(STENCIL, STEPS, strict=True):
-            ahead = onto_pair(self._one, self._other, feet + k * step * tangent, tangent)
-            total += weight * self._curvature(ahead)
-        return total / step
+        near = feet + step * STEPS[:, None, None] * tangent
+        ahead = onto_pair(self._one, self._other, near, tangent)
+        return np.asarray(np.tensordot(STENCIL, self._curvature(ahead), axes=1) / step)
 
     @cached_property
     def _sense(self) -> float:
@@ -115,7 +114,7 @@ class Osculation:
         return float(np.sign(dot(along, cross_direction(self._one, self._other, feet)[0])[0]))
 
     def _curvature(self, points: Array) -> Array:
-        """The curvature vector (k, 3) at points, from the normal curvatures of the carriers."""
+        """The curvature vector (..., 3) at points, from the normal curvatures of the carriers."""
         tangent = cross_direction(self._one, self._other, points)[0]
         na, nb = self._one.normal(points), self._other.normal(points)
         ha = -self._one.normal_curvature(points, tangent)
@@ -123,4 +122,4 @@ class Osculation:
         c = dot(na, nb)
         with np.errstate(divide="ignore", invalid="ignore"):
             a, b = (ha - c * hb) / (1 - c**2), (hb - c * ha) / (1 - c**2)
-        return np.asarray(a[:, None] * na + b[:, None] * nb)
+        return np.asarray(a[..., None] * na + b[..., None] * nb)

@@ -9,9 +9,7 @@ is the whole line of centres of curvature over that point.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
@@ -182,16 +180,17 @@ class _EdgeRims:
         return np.asarray(inside & (reach >= radius - EMPTY * self._size))
 
     def _between(self, one: Array, other: Array, share: float) -> Array:
-        """The spot (1, 2) of the rim over a part of the chord between two of its spots."""
+        """The spots (k, 2) of the rim over a part of the chords between two of its spots each."""
         apart = other - one
         if self._edge.closed:
-            apart = apart - np.array([np.round(apart[0]), 0.0])
-        across = np.array([[-apart[1], apart[0]]]) / float(norm(apart))
-        return self._spheres.onto((one + share * apart)[None], across)
+            apart[:, 0] -= np.round(apart[:, 0])
+        across = np.stack([-apart[:, 1], apart[:, 0]], axis=1) / norm(apart)[:, None]
+        return self._spheres.onto(one + share * apart, across)
 
     def _end(self, inside: Array, outside: Array) -> Array:
         """Where between two spots of a rim a further contact is as near."""
         it, low, high = self._incidence, 0.0, 1.0
+        inside, outside = inside[None], outside[None]
         for _ in range(HALVINGS):
             middle = (low + high) / 2
             if self._empty(self._between(inside, outside, middle))[0]:
@@ -241,7 +240,6 @@ class _EdgeRims:
         return spots[moves[0] : moves[-1] + 2] if len(moves) else spots[:0]
 
     def _denser(self, spots: Array) -> Array:
-        inner: Sequence[Array] = [self._between(a, b, 0.5)[0] for a, b in pairwise(spots)]
         result = np.empty((2 * len(spots) - 1, 2))
-        result[::2], result[1::2] = spots, np.array(inner)
+        result[::2], result[1::2] = spots, self._between(spots[:-1], spots[1:], 0.5)
         return result
