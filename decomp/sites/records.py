@@ -42,12 +42,11 @@ class Record:
 
     @cached_property
     def _numba_type_(self) -> RecordType:
-        kind: RecordType = _type_of(self)
-        return kind
+        return _type_of_fields(self)
 
     @cached_property
     def _words(self) -> Ints:
-        return np.array(_words_of(self), dtype=np.int64)
+        return np.array(_words_of_fields(self), dtype=np.int64)
 
     @cached_property
     def address(self) -> int:
@@ -87,11 +86,16 @@ def _fields(value: Any) -> tuple[str, ...]:
     return tuple(getattr(value, "_fields", ()))
 
 
+def _type_of_fields(value: Any) -> RecordType:
+    kinds = {name: _type_of(getattr(value, name)) for name in _fields(value)}
+    return RecordType(type(value).__name__, kinds)
+
+
 def _type_of(value: Any) -> types.Type:
-    fields = _fields(value)
-    if fields:
-        kinds = {name: _type_of(getattr(value, name)) for name in fields}
-        return RecordType(type(value).__name__, kinds)
+    if isinstance(value, Record):
+        return value._numba_type_  # most records are made of some that were seen before
+    if _fields(value):
+        return _type_of_fields(value)
     kind = typeof(value)
     if isinstance(kind, types.Array):
         if kind.layout != "C":
@@ -101,10 +105,15 @@ def _type_of(value: Any) -> types.Type:
     return kind
 
 
+def _words_of_fields(value: Any) -> list[int]:
+    return [word for name in _fields(value) for word in _words_of(getattr(value, name))]
+
+
 def _words_of(value: Any) -> list[int]:
-    fields = _fields(value)
-    if fields:
-        return [word for name in fields for word in _words_of(getattr(value, name))]
+    if isinstance(value, Record):
+        return list(value._words.tolist())
+    if _fields(value):
+        return _words_of_fields(value)
     if isinstance(value, np.ndarray):
         return [value.ctypes.data, *value.shape]
     return [int(np.array(value).view(np.int64))]

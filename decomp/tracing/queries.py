@@ -7,6 +7,7 @@ the others among many, and only what is still in doubt is left to the index.
 
 from __future__ import annotations
 
+from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -35,7 +36,7 @@ class RegionQueries:
         self._occupancy = private(index.occupancy)
         self.size = part.boundary.diagonal
 
-    @property
+    @cached_property
     def probe(self) -> Probe:
         """What compiled queries need."""
         part = self._part
