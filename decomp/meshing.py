@@ -34,7 +34,6 @@ from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.sorting import sorted_in_space
 from decomp.tetra.splitting import freed
-from decomp.tetra.subdividing import subdivided
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
@@ -44,8 +43,6 @@ CHORD, COARSEST = 0.4, 0.6
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
-INSERTED = 3.0
-"""TetWild is given no edges longer than so many of those wanted."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may take, in all and for each expected tetrahedron."""
 
@@ -118,9 +115,7 @@ def mesh(
     plan = layout(made, known)
     tell("TetWild", 0.4)
     limit = timeout or max(LIMIT, LIMIT_PER_TET * expected_tets(geometry, wish, sizes))
-    raw = tetrahedralized(
-        *_soup(plan, settings.edge_length), settings, field, limit, lambda note: tell(note, 0.5)
-    )
+    raw = tetrahedralized(*_soup(plan), settings, field, limit, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon
     part = classified(geometry, known, raw.points, raw.tets, epsilon)
@@ -168,10 +163,9 @@ def _surface(
     return made, fitting
 
 
-def _soup(plan: Layout, length: float) -> tuple[Array, Ints]:
+def _soup(plan: Layout) -> tuple[Array, Ints]:
     """The complex's points and triangles as TetWild takes them quickly."""
-    used = _used(plan.complex.points, plan.triangles)
-    points, triangles = subdivided(*used, INSERTED * length)
+    points, triangles = _used(plan.complex.points, plan.triangles)
     return points, sorted_in_space(points, triangles)
 
 
