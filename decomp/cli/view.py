@@ -65,6 +65,6 @@ def show(scene: Scene) -> None:
         raise InputError(
             "a window needs pyvista: pip install pyvista; or write a page: -o view.html"
         ) from None
-    from decomp.view.window import plotter
+    from decomp.view.window import Window
 
-    plotter(scene, pyvista).show()
+    Window(scene, pyvista).plotter.show()
