@@ -20,7 +20,7 @@ from decomp.csg.solid import Solid
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
-from decomp.tetra.child import Settings, tetrahedralized
+from decomp.tetra.child import Settings, TimeLimit, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import conformed
 from decomp.tetra.expected import expected_tets
@@ -43,7 +43,7 @@ CHORD, COARSEST = 0.4, 0.6
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
-"""Seconds that TetWild may take, in all and for each expected tetrahedron."""
+"""Seconds that TetWild may compute, in all and for each expected tetrahedron."""
 
 SURFACE = 0.3
 """Which part of the whole is behind when there is a complex."""
@@ -78,8 +78,8 @@ def mesh(
         sheets: whether triangles between the cells of a region are tagged.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
-        timeout: seconds that TetWild may take; by default ten minutes, or 5 ms for each expected
-            tetrahedron where that is more.
+        timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
+            each expected tetrahedron where that is more, and four times as long by the clock.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
@@ -114,7 +114,8 @@ def mesh(
     plan = layout(made, known)
     tell("TetWild", 0.4)
     soup = _used(plan.complex.points, plan.triangles)
-    limit = timeout or max(LIMIT, LIMIT_PER_TET * expected_tets(geometry, wish, sizes))
+    work = max(LIMIT, LIMIT_PER_TET * expected_tets(geometry, wish, sizes))
+    limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
     raw = tetrahedralized(*soup, settings, field, limit, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon

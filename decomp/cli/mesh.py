@@ -139,7 +139,8 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         "--timeout",
         type=positive,
         metavar="S",
-        help="seconds that TetWild may take (default 600, and more for very many tetrahedra)",
+        help="seconds that TetWild may take (default: 600 of computing, and more for very many "
+        "tetrahedra)",
     )
 
 
