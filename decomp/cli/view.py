@@ -55,16 +55,11 @@ def show(scene: Scene) -> None:
     """Open a window.
 
     Raises:
-        InputError: pyvista is not installed.
+        MissingPackageError: pyvista is not installed.
     """
-    try:
-        import pyvista
-    except ImportError:
-        from decomp.errors import InputError
-
-        raise InputError(
-            "a window needs pyvista: pip install pyvista; or write a page: -o view.html"
-        ) from None
+    from decomp.optional import needed
     from decomp.view.window import plotter
+
+    pyvista = needed("pyvista", "pyvista", "a window (-o view.html writes a page instead)")
 
     plotter(scene, pyvista).show()
