@@ -44,7 +44,7 @@ def test_parts_of_each_kind_of_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
-        ("x.stl", "solid", "'.stl' is nothing that can be viewed; there are .geo"),
+        ("x.stl", "solid", "'.stl' is nothing that can be viewed; views are of .geo"),
         ("x.msh", "no mesh", "x.msh"),
         ("none.geo", None, "none.geo"),
     ],
