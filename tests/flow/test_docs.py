@@ -22,13 +22,11 @@ PAGES = {
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_pages_are_true(
-    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_pages_are_true(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "meshes").symlink_to(ROOT / "meshes")
     count, files = PAGES[page]
-    assert pages.run(f"docs/{page}", tmp_path, capsys) == count
+    assert pages.run(f"docs/{page}", tmp_path) == count
     assert {path.name for path in tmp_path.iterdir()} - {"meshes"} == set(files.split())
 
 
