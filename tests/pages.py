@@ -11,13 +11,13 @@ Blocks are told by what follows their opening fence:
 
 from __future__ import annotations
 
+import io
 import re
 import shlex
 from collections.abc import Iterator
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
-
-import pytest
 
 from decomp.cli.main import main
 
@@ -32,7 +32,7 @@ def blocks(page: str) -> Iterator[tuple[str, str, str]]:
         yield match[1], match[2], match[3]
 
 
-def run(page: str, place: Path, capsys: pytest.CaptureFixture[str]) -> int:
+def run(page: str, place: Path) -> int:
     """Execute a page in a directory, which is the current one; how many blocks were run."""
     names: dict[str, Any] = {"__name__": "page"}
     count = 0
@@ -40,43 +40,41 @@ def run(page: str, place: Path, capsys: pytest.CaptureFixture[str]) -> int:
         if language == "text" and name:
             (place / name).write_text(text)
         elif language == "text" and text.startswith("$ "):
-            _transcript(text, capsys)
+            _transcript(text)
         elif language == "sh":
             for line in text.splitlines():
                 _command(line)
         elif language == "python":
-            _python(page, text, names, capsys)
+            _python(page, text, names)
         else:
             continue
         count += 1
     return count
 
 
-def _command(line: str) -> int:
+def _command(line: str) -> None:
     words = shlex.split(line, comments=True)
     if words[:1] == ["decomp"]:
         assert main(words[1:]) == 0, line
     else:
         assert line.startswith(NOT_RUN), line
-    return 0
 
 
-def _transcript(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def _transcript(text: str) -> None:
     for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
         line, _, promised = part.partition("\n")
-        capsys.readouterr()
-        main(shlex.split(line)[1:])
-        found = "".join(capsys.readouterr())
+        said = io.StringIO()
+        with redirect_stdout(said), redirect_stderr(said):
+            main(shlex.split(line)[1:])
+        found = said.getvalue()
         pattern = re.escape(promised).replace(re.escape("...\n"), r"(?s:.*)")
         assert re.fullmatch(pattern.replace(r"\.\.\.", ".*"), found), found
 
 
-def _python(
-    page: str, text: str, names: dict[str, Any], capsys: pytest.CaptureFixture[str]
-) -> None:
-    capsys.readouterr()
+def _python(page: str, text: str, names: dict[str, Any]) -> None:
+    printed: list[str] = []
+    names["print"] = lambda *what: printed.append(" ".join(map(str, what)))  # libraries print too
     exec(compile(text, page, "exec"), names)
-    printed = capsys.readouterr().out.splitlines()
     promised = re.findall(r"^ *print\(.*\)  +# (.*)$", text, flags=re.MULTILINE)
     assert len(promised) == len(re.findall(r"\bprint\(", text)), "a print without its comment"
     assert printed == promised

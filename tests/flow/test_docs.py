@@ -9,12 +9,14 @@ from pathlib import Path
 
 import pytest
 
+import decomp
 from decomp.cli.main import main
 from decomp.formats.native_schema import NODES, PRIMITIVES
 from tests import pages
 
 ROOT = Path(__file__).parent.parent.parent
 PAGES = {
+    "api.md": (1, ""),
     "formats.md": (7, "plate.geo ring.csg washer.json same.json"),
     "tutorial.md": (8, "blind_hole.msh blind_hole.png blind_hole.html pipe.geo pipe.vtu"),
 }
@@ -22,13 +24,11 @@ PAGES = {
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_pages_are_true(
-    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_pages_are_true(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "meshes").symlink_to(ROOT / "meshes")
     count, files = PAGES[page]
-    assert pages.run(f"docs/{page}", tmp_path, capsys) == count
+    assert pages.run(f"docs/{page}", tmp_path) == count
     assert {path.name for path in tmp_path.iterdir()} - {"meshes"} == set(files.split())
 
 
@@ -67,7 +67,11 @@ def test_a_file_of_another_program(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_the_site_builds(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
     pytest.importorskip("material")
+    pytest.importorskip("mkdocstrings")
     words = [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", str(tmp_path / "site")]
     run = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     assert "decomp mesh" in (tmp_path / "site" / "commands" / "index.html").read_text()
+    python = (tmp_path / "site" / "api" / "index.html").read_text()
+    for name in decomp.__all__:
+        assert f'id="decomp.{name}"' in python, name
