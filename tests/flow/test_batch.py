@@ -82,8 +82,10 @@ def test_an_interrupt_stops_all(models: Path) -> None:
         text=True,
     )
     try:
-        time.sleep(4)
-        workers = _children(process.pid)
+        deadline = time.monotonic() + 60
+        while len(workers := _children(process.pid)) < 2 and time.monotonic() < deadline:
+            time.sleep(0.1)
+        time.sleep(2)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20)
     finally:
