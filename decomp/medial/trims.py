@@ -62,6 +62,7 @@ class TrimPiece:
 class _Sample:
     s: float
     far: Contact
+    site: int
     foot: Array
     radius: float
 
@@ -178,7 +179,7 @@ class TrimScanner:
                 far = (site,)
             else:
                 far = incidence.touched(site, hits[k], away[k] / length[k])
-            found.append(_Sample(s, far, hits[k], float(balls.radius[k])))
+            found.append(_Sample(s, far, site, hits[k], float(balls.radius[k])))
         return [found[a:b] for a, b in pairwise(stops)]
 
     def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
@@ -223,9 +224,14 @@ class TrimScanner:
                 else:
                     halved.append((k, a, b))
             for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
-                # a contact that holds both is the change itself
+                # a contact that holds both is the change itself, to the tolerance of contacts
                 if middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far):
-                    found[k].append((a, b))
+                    if middle.site in a.far and middle.site not in b.far:
+                        wide.append((k, replace(middle, far=a.far), b))
+                    elif middle.site in b.far and middle.site not in a.far:
+                        wide.append((k, a, replace(middle, far=b.far)))
+                    else:
+                        found[k].append((a, b))
                 else:
                     wide += [(k, a, middle), (k, middle, b)]
         for pairs in found:
