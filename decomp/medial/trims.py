@@ -33,6 +33,9 @@ NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
 STEPS = 40
+CREPT, RUN_TOGETHER = 1e-7, 1e-3
+"""Contacts nearer to each other than this part of the size have run together if they are as near
+measured by the ball too: close to a convex vertex balls are small."""
 LOCUS = 1e-8
 """Centres nearer to a reflexive locus than this part of the size lie on it."""
 
@@ -163,7 +166,8 @@ class TrimScanner:
         hits = np.array(balls.foot)
         hits[known] = field.foot
         alone = self._alone(balls.site, hits)
-        own = (balls.site < 0) | (norm(hits - feet) <= 1e-7 * self._size)
+        crept = np.minimum(CREPT * self._size, RUN_TOGETHER * balls.radius)
+        own = (balls.site < 0) | (norm(hits - feet) <= crept)
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
             own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])

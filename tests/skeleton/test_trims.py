@@ -37,6 +37,17 @@ def test_trims_that_cross_meet_in_one_node() -> None:
     assert sum(at in (piece.ends or ()) for piece in curves.pieces) == 4
 
 
+def test_no_trim_of_planes_lies_on_a_locus() -> None:
+    """Balls over the edge of length 0.03 are small; their two feet have not run together."""
+    base = Block((0, 0, 0), (4, 2, 1), name="base")
+    curves = curves_of(base | Block((1, 1, 0.97), (1, 2, 1), name="boss"))
+    assert curves.runs == curves.reflexive == ()
+    short = [n for n, c in enumerate(curves.over) if c.end - c.start == pytest.approx(0.03)]
+    assert short
+    for number in short:
+        assert any(number in piece.over for piece in curves.pieces)
+
+
 def area(lower: Array, upper: Array, triangles: Ints) -> Array:
     """Twice the areas of triangles between polylines (k, 2) with vertices counted on."""
     corners = np.concatenate([lower, upper])[triangles]
