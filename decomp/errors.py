@@ -21,6 +21,10 @@ class InputError(DecompError):
     exit_code = 2
 
 
+class MissingPackageError(InputError, ImportError):
+    """What was asked for needs a package that is not installed; says how to install it."""
+
+
 class FileError(InputError):
     """A model file cannot be used, at a known place where there is one.
 

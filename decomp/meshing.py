@@ -20,15 +20,16 @@ from decomp.csg.solid import Solid
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
-from decomp.tetra.child import Settings, tetrahedralized
+from decomp.tetra.child import Settings, TimeLimit, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import conformed
-from decomp.tetra.expected import expected_tets
+from decomp.tetra.expected import expected_tets, least_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import first_length, size_field
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.layout import Layout, layout
+from decomp.tetra.memory import check_memory
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
@@ -44,7 +45,7 @@ CHORD, COARSEST = 0.4, 0.6
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
-"""Seconds that TetWild may take, in all and for each expected tetrahedron."""
+"""Seconds that TetWild may compute, in all and for each expected tetrahedron."""
 
 SURFACE = 0.3
 """Which part of the whole is behind when there is a complex."""
@@ -79,12 +80,12 @@ def mesh(
         sheets: whether triangles between the cells of a region are tagged.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
-        timeout: seconds that TetWild may take; by default ten minutes, or 5 ms for each expected
-            tetrahedron where that is more.
+        timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
+            each expected tetrahedron where that is more, and four times as long by the clock.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
-        InputError: an option is out of its range.
+        InputError: an option is out of its range, or the mesh would not fit into memory.
         FileError: the file cannot be read.
         GeometryError: the solid or its skeleton cannot be computed.
         MeshingError: TetWild fails.
@@ -102,6 +103,7 @@ def mesh(
     wanted = Wanted(size, layers, elements_per_circle)
     maker = SurfaceMaker(geometry, lambda what, done: tell(what, SURFACE * done))
     sizes = region_sizes(geometry, wanted)
+    check_memory(least_tets(geometry, sizes), float(sizes.max()))
     by_face = cells == "face"
     made, epsilon = _surface(geometry, maker, float(sizes.min()), by_face)
     tell("sizing", SURFACE)
@@ -113,8 +115,11 @@ def mesh(
     settings = Settings(first_length(wish, field), epsilon)
     known = cell_map(made)
     plan = layout(made, known)
+    expected = expected_tets(geometry, wish, sizes)
+    check_memory(expected)
     tell("TetWild", 0.4)
-    limit = timeout or max(LIMIT, LIMIT_PER_TET * expected_tets(geometry, wish, sizes))
+    work = max(LIMIT, LIMIT_PER_TET * expected)
+    limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
     raw = tetrahedralized(*_soup(plan), settings, field, limit, lambda note: tell(note, 0.5))
     tell("naming", 0.8)
     epsilon = raw.settings.epsilon

@@ -106,7 +106,9 @@ class RegionBoundary:
     Args:
         name: the region's name.
         carriers: the solid's carriers, shared by all its regions.
-        faces, edges, vertices: its elements.
+        faces: parts of its carriers.
+        edges: curves where two faces meet.
+        vertices: points where edges end.
         volume: of the region; negative for the unbounded outside of a model.
         volume_error: estimated error of the quadrature behind `volume`.
         area: of all faces.

@@ -67,7 +67,10 @@ def run(options: argparse.Namespace) -> None:
         print("\n".join(table(outcomes)))
     failed = [outcome for outcome in outcomes if outcome.error]
     for outcome in failed:
-        print(f"decomp: {outcome.model}: {outcome.error}", file=sys.stderr)
+        # errors of files begin with the file's name already
+        named = outcome.error.startswith(str(outcome.model))
+        where = "" if named else f"{outcome.model}: "
+        print(f"decomp: {where}{outcome.error}", file=sys.stderr)
     if failed:
         raise DecompError(f"{len(failed)} of {len(outcomes)} models failed")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import positive
-from decomp.errors import DecompError
+from decomp.errors import DecompError, InputError
 
 if TYPE_CHECKING:
     from decomp.tetra.check import Checked
@@ -64,8 +64,11 @@ def run(options: argparse.Namespace) -> None:
         DecompError: the mesh falls short, or something cannot be read or computed.
     """
     from decomp.cli.computing import reporting
+    from decomp.formats import FORMATS
     from decomp.tetra.check import check
 
+    if options.mesh.suffix.lower().removeprefix(".") in FORMATS:
+        raise InputError(f"{options.mesh} is a model: give the model first, then its mesh")
     with reporting(options.quiet) as tell:
         found = check(
             options.model,

@@ -139,7 +139,8 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         "--timeout",
         type=positive,
         metavar="S",
-        help="seconds that TetWild may take (default 600, and more for very many tetrahedra)",
+        help="seconds that TetWild may take (default: 600 of computing, and more for very many "
+        "tetrahedra)",
     )
 
 
@@ -157,7 +158,7 @@ def run(options: argparse.Namespace) -> None:
         batch.run(options)
         return
     options.model = options.models[0]
-    outputs = options.output or [Path(options.model.with_suffix(".msh").name)]
+    outputs = options.output or [Path(f"{options.model.stem or 'model'}.msh")]
     suffixes = {suffix_of(path) for path in outputs}
     checked_fields(options.fields)
     if options.fields and not suffixes & {".msh", ".vtu"}:

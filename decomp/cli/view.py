@@ -55,16 +55,10 @@ def show(scene: Scene) -> None:
     """Open a window.
 
     Raises:
-        InputError: pyvista is not installed.
+        MissingPackageError: pyvista is not installed.
     """
-    try:
-        import pyvista
-    except ImportError:
-        from decomp.errors import InputError
+    from decomp.optional import needed
+    from decomp.view.window import Window
 
-        raise InputError(
-            "a window needs pyvista: pip install pyvista; or write a page: -o view.html"
-        ) from None
-    from decomp.view.window import plotter
-
-    plotter(scene, pyvista).show()
+    pyvista = needed("pyvista", "pyvista", "a window (-o view.html writes a page instead)")
+    Window(scene, pyvista).plotter.show()

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 from decomp.errors import FileError, InputError, ParseError
+from decomp.formats.foreign import advice
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
@@ -121,7 +122,7 @@ def _text(data: bytes, file: Path, form: Format | None) -> str:
         if form == "geo" or (form is None and re.search(rb"\balgebraic3d\b", data)):
             return data.decode("latin-1")
         if form is None and b"\0" in data:
-            raise ParseError(f"this is no text that describes a model; {EXPECTED}", file) from None
+            raise _no_model("this is no text that describes a model", file) from None
         before = data[: error.start]
         line = before.count(b"\n") + 1
         column = len(before[before.rfind(b"\n") + 1 :].decode("utf-8", "replace")) + 1
@@ -141,7 +142,15 @@ def _sniffed(text: str, file: Path) -> Format:
         return "json"
     if re.match(r"(?s:\s|//[^\n]*+|/\*.*?\*/)*+[%#*!\s]*+\w++\s*+\(", text):
         return "csg"
-    raise ParseError(f"the file's format is unknown; {EXPECTED}", file, 1, 1)
+    raise _no_model("the file's format is unknown", file)
+
+
+def _no_model(what: str, file: Path) -> ParseError:
+    """An error that tells what to do about the file, if its suffix tells what it is."""
+    known = advice(file)
+    return ParseError(
+        f"{what}; {EXPECTED}" + (f". {known[0].upper()}{known[1:]}" if known else ""), file
+    )
 
 
 def _reason(error: OSError | ValueError) -> str:

@@ -20,6 +20,8 @@ from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place
 
 MERGED = 1e-3
 """Feet on one site nearer than this part of the radius are not told apart."""
+LEAST = 0.1
+"""Radii along a trim are looked for from this part of the nearest known one at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +137,9 @@ class TrimCurve:
     def place(self, points: Array) -> Array:
         """Move points (k, 3) along the normals' ruled surface onto the trim."""
         s = self.over.parameter(points)
-        return self.at(s, norm(points - self.over.feet(s)))
+        # a point far off may even be on the edge; the curve is not there
+        known = norm(self.points - self.feet)[nearest_rows(self.points, points)]
+        return self.at(s, np.maximum(norm(points - self.over.feet(s)), LEAST * known))
 
     def at(self, s: Array, guess: Array) -> Array:
         """The centres (k, 3) over parameters (k,), their radii being about `guess`."""

@@ -253,7 +253,16 @@ class TrimMaker:
     def _strip(self, given: _Strip) -> Ints:
         if given.curve.closed and len(given.lower) > 1:
             return self._ring(given.curve, given.lower, given.lower_s, given.upper, given.upper_s)
-        return strip(given.lower, given.lower_s, given.upper, given.upper_s)
+        height = self._heights(given.curve, given.upper, given.upper_s)
+        return strip(given.lower, given.lower_s, given.upper, given.upper_s, height)
+
+    def _heights(self, curve: NormalCurve, upper: Ints, upper_s: Array) -> Array:
+        """How high (k,) vertices are above the edge, in units of its parameter."""
+        span = curve.end - curve.start
+        length = float(
+            norm(np.diff(curve.feet(np.linspace(curve.start, curve.end, 17)), axis=0)).sum()
+        )
+        return norm(self._points[upper] - curve.feet(upper_s)) * (span / length if length else 1.0)
 
     def _ring(
         self, curve: NormalCurve, lower: Ints, lower_s: Array, upper: Ints, upper_s: Array
@@ -263,12 +272,13 @@ class TrimMaker:
         if lower_s[-1] < lower_s[0]:
             lower, lower_s = lower[::-1], lower_s[::-1]
         if (upper == upper[0]).all():
-            return strip(lower, lower_s, upper[:1], lower_s[:1])
+            return strip(lower, lower_s, upper[:1], lower_s[:1], np.ones(1))
         body, s = upper[:-1], upper_s[:-1]
         s = lower_s[0] + np.mod(s - lower_s[0], period)
         order = np.argsort(s, kind="stable")
         body, s = body[order], s[order]
-        return strip(lower, lower_s, np.append(body, body[0]), np.append(s, s[0] + period))
+        body, s = np.append(body, body[0]), np.append(s, s[0] + period)
+        return strip(lower, lower_s, body, s, self._heights(curve, body, s))
 
     def _patch(self, given: _Strip, triangles: Ints) -> tuple[TrimSurface, Patch]:
         """Orient: normals point from the higher-dimensional site's side to the other's."""

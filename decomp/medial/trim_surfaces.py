@@ -7,10 +7,12 @@ jump, so it is no part of the skeleton. It parts face cells.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.complex.planar import triangulate
 from decomp.medial.normal_curves import NormalCurve
 from decomp.vectors import Array, Ints, cross, dot, norm
 
@@ -18,6 +20,8 @@ RUNGS = (0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995)
 """Parts of the normals' lengths at which points are known."""
 CLOSE = 16
 """So many known points are looked at."""
+FLAT = 1e-9
+"""A triangle whose area is less than this part of its terms is flat."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,12 +78,13 @@ class RuledSurface:
         return np.asarray(self.s[rows[np.arange(len(points)), np.argmin(off, axis=1)]])
 
 
-def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
+def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array, height: Array) -> Ints:
     """Triangles (m, 3) between two polylines of vertices over one parameter.
 
     Args:
         lower, upper: vertices from the least to the greatest parameter.
         lower_s, upper_s: their parameters, ascending.
+        height: of the upper vertices above the lower border, in units of the parameter.
     """
     i = j = 0
     triangles = []
@@ -88,9 +93,40 @@ def strip(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array) -> Ints:
         if go_lower:
             triangles.append((lower[i], lower[i + 1], upper[j]))
             i += 1
+        elif len(lower) > 1 and _leaves(lower_s[i], upper_s[j : j + 2], height[j : j + 2]):
+            return _delaunay(lower, lower_s, upper, upper_s, height)
         else:
             triangles.append((lower[i], upper[j + 1], upper[j]))
             j += 1
-    found = np.array(triangles, dtype=np.int64).reshape(-1, 3)
-    a, b, c = found.T
-    return np.asarray(found[(a != b) & (b != c) & (c != a)])
+    return _proper(np.array(triangles, dtype=np.int64).reshape(-1, 3))
+
+
+def _leaves(below: float, above: Array, height: Array) -> bool:
+    """Whether the triangle of a lower vertex and two upper ones lies above the upper border."""
+    one, two = (above[0] - below) * height[1], (above[1] - below) * height[0]
+    return bool(one - two > FLAT * (abs(one) + abs(two)))
+
+
+def _delaunay(lower: Ints, lower_s: Array, upper: Ints, upper_s: Array, height: Array) -> Ints:
+    """The same where the upper border has hollows: triangulated in parameter and height."""
+    vertices, place = list(lower), [(s, 0.0) for s in lower_s]
+    ends = {0: 0, len(upper) - 1: len(lower) - 1}
+    border = list(range(len(lower)))
+    above = []
+    for j, vertex in enumerate(upper):
+        if j in ends and vertex == lower[ends[j]]:
+            above.append(ends[j])
+            continue
+        above.append(len(vertices))
+        vertices.append(vertex)
+        place.append((upper_s[j], height[j]))
+    loop = [*border, *above[::-1], border[0]]
+    segments = np.array([side for side in pairwise(loop) if side[0] != side[1]])
+    found = triangulate(np.array(place), segments)
+    return _proper(np.array(vertices)[found.triangles[found.component >= 0]])
+
+
+def _proper(triangles: Ints) -> Ints:
+    """Those with three different vertices."""
+    a, b, c = triangles.T
+    return np.asarray(triangles[(a != b) & (b != c) & (c != a)])

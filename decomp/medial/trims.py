@@ -33,6 +33,9 @@ NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
 STEPS = 40
+CREPT, RUN_TOGETHER = 1e-7, 1e-3
+"""Contacts nearer to each other than this part of the size have run together if they are as near
+measured by the ball too: close to a convex vertex balls are small."""
 LOCUS = 1e-8
 """Centres nearer to a reflexive locus than this part of the size lie on it."""
 
@@ -62,6 +65,7 @@ class TrimPiece:
 class _Sample:
     s: float
     far: Contact
+    site: int
     foot: Array
     radius: float
 
@@ -162,7 +166,8 @@ class TrimScanner:
         hits = np.array(balls.foot)
         hits[known] = field.foot
         alone = self._alone(balls.site, hits)
-        own = (balls.site < 0) | (norm(hits - feet) <= 1e-7 * self._size)
+        crept = np.minimum(CREPT * self._size, RUN_TOGETHER * balls.radius)
+        own = (balls.site < 0) | (norm(hits - feet) <= crept)
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
             own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
@@ -178,7 +183,7 @@ class TrimScanner:
                 far = (site,)
             else:
                 far = incidence.touched(site, hits[k], away[k] / length[k])
-            found.append(_Sample(s, far, hits[k], float(balls.radius[k])))
+            found.append(_Sample(s, far, site, hits[k], float(balls.radius[k])))
         return [found[a:b] for a, b in pairwise(stops)]
 
     def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
@@ -223,9 +228,14 @@ class TrimScanner:
                 else:
                     halved.append((k, a, b))
             for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
-                # a contact that holds both is the change itself
+                # a contact that holds both is the change itself, to the tolerance of contacts
                 if middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far):
-                    found[k].append((a, b))
+                    if middle.site in a.far and middle.site not in b.far:
+                        wide.append((k, replace(middle, far=a.far), b))
+                    elif middle.site in b.far and middle.site not in a.far:
+                        wide.append((k, a, replace(middle, far=b.far)))
+                    else:
+                        found[k].append((a, b))
                 else:
                     wide += [(k, a, middle), (k, middle, b)]
         for pairs in found:

@@ -7,6 +7,7 @@ on bad input, and may exit with 0 without any result. So only a readable, sound 
 from __future__ import annotations
 
 import contextlib
+import math
 import os
 import signal
 import subprocess
@@ -20,13 +21,15 @@ from pathlib import Path
 import numpy as np
 
 from decomp.errors import DecompError, GeometryError, InputError
-from decomp.tetra.worker import MISSING
+from decomp.tetra.worker import MISSING, SPENT
 from decomp.vectors import Array, Ints
 
 WORKER = Path(__file__).with_name("worker.py")
 EDGE_IN_EPSILONS = 6.0
 """Edges are at least so many epsilons long."""
 ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
+PATIENCE = 4.0
+"""By the clock, work may take so many times as long as on a machine with nothing else to do."""
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
@@ -92,6 +95,25 @@ class Settings:
         )
 
 
+@dataclass(frozen=True)
+class TimeLimit:
+    """When a try is given up.
+
+    Args:
+        clock: seconds that may pass.
+        busy: seconds that the child may compute, whatever else the machine does, in whole ones.
+            Systems without such a limit have the clock's alone.
+    """
+
+    clock: float
+    busy: float = math.inf
+
+    @classmethod
+    def of_work(cls, seconds: float) -> TimeLimit:
+        """For so much work, on a machine that may be doing other things beside it."""
+        return cls(PATIENCE * seconds, seconds)
+
+
 @dataclass(frozen=True, eq=False)
 class Tetrahedra:
     """What fTetWild made.
@@ -114,7 +136,7 @@ def tetrahedralized(
     triangles: Ints,
     settings: Settings,
     field: SizeField | None = None,
-    timeout: float = 600.0,
+    limit: TimeLimit = TimeLimit(600.0),
     tell: Callable[[str], None] = lambda note: None,
 ) -> Tetrahedra:
     """Fill the box around triangles with tetrahedra that conform to them.
@@ -124,7 +146,7 @@ def tetrahedralized(
         triangles: (m, 3) indices of points.
         settings: of the first try.
         field: sizes.
-        timeout: seconds after which a try is given up.
+        limit: after which a try is given up.
         tell: is told of a failed first try.
 
     Raises:
@@ -138,7 +160,7 @@ def tetrahedralized(
     for attempt in (settings, settings.other()):
         arrays = _scaled(points, triangles, attempt, field, centre, scale)
         try:
-            found, tets = _run(arrays, timeout)
+            found, tets = _run(arrays, limit)
         except MeshingError as error:
             notes.append(f"TetWild {error} ({attempt})")
             tell(f"{notes[-1]}, trying again with other settings")
@@ -199,7 +221,7 @@ def _scaled(
     }
 
 
-def _run(arrays: dict[str, object], timeout: float) -> tuple[Array, Ints]:
+def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
     """Run the worker once.
 
     Raises:
@@ -210,7 +232,7 @@ def _run(arrays: dict[str, object], timeout: float) -> tuple[Array, Ints]:
         source, target = Path(directory) / "in.npz", Path(directory) / "out.npz"
         np.savez(source, **arrays)  # type: ignore[arg-type]
         process = subprocess.Popen(
-            [sys.executable, "-P", str(WORKER), str(source), str(target)],
+            [sys.executable, "-P", str(WORKER), str(source), str(target), str(limit.busy)],
             cwd=directory,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
@@ -218,15 +240,17 @@ def _run(arrays: dict[str, object], timeout: float) -> tuple[Array, Ints]:
             start_new_session=True,
         )
         try:
-            _, errors = process.communicate(timeout=timeout)
+            _, errors = process.communicate(timeout=limit.clock)
         except subprocess.TimeoutExpired:
-            raise MeshingError(f"did not end within {timeout:g} s") from None
+            raise MeshingError(f"did not end within {limit.clock:g} s") from None
         finally:
             _kill(process)
         if process.returncode == MISSING:
             raise InputError(
                 f"{errors.decode(errors='replace').strip()}: pip install pytetwild==0.4.2"
             )
+        if process.returncode == -SPENT:
+            raise MeshingError(f"did not end within {limit.busy:g} s of computing")
         if process.returncode:
             raise MeshingError(_failure(process.returncode, errors))
         return _result(target)

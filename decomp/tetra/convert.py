@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from decomp.optional import needed
 from decomp.tetra.incidence import incidence
 from decomp.tetra.ordering import in_vtk_order
 
@@ -25,10 +26,9 @@ def to_meshio(mesh: TetMesh) -> Any:
     and the field data the surface's tag.
 
     Raises:
-        ImportError: meshio is not installed.
+        MissingPackageError: meshio is not installed.
     """
-    import meshio  # type: ignore[import-untyped]
-
+    meshio = needed("meshio", "meshio", "mesh.to_meshio()")
     tags = [mesh.triangle_tags, mesh.tet_tags]
     sets: dict[str, list[Any]] = {}
     for group in mesh.groups:
@@ -60,10 +60,9 @@ def to_pyvista(mesh: TetMesh) -> Any:
     in the order of `tags`.
 
     Raises:
-        ImportError: pyvista is not installed.
+        MissingPackageError: pyvista is not installed.
     """
-    import pyvista
-
+    pyvista = needed("pyvista", "pyvista", "mesh.to_pyvista()")
     tets = in_vtk_order(mesh.tets)
     width = np.full((len(tets), 1), tets.shape[1])
     types = np.full(len(tets), VTK_TYPES[tets.shape[1]], dtype=np.uint8)
@@ -89,11 +88,10 @@ def to_skfem(mesh: TetMesh) -> Any:
     it; boundaries are the surfaces, oriented as the mesh's triangles are.
 
     Raises:
-        ImportError: scikit-fem is not installed.
+        MissingPackageError: scikit-fem is not installed.
     """
-    import skfem  # type: ignore[import-untyped]
-    from skfem.generic_utils import OrientedBoundary  # type: ignore[import-untyped]
-
+    skfem = needed("skfem", "scikit-fem", "mesh.to_skfem()")
+    oriented = needed("skfem.generic_utils", "scikit-fem", "mesh.to_skfem()").OrientedBoundary
     tets = in_vtk_order(mesh.tets).T
     made = skfem.MeshTet1 if mesh.order == 1 else skfem.MeshTet2
     result = made(np.ascontiguousarray(mesh.points.T), np.ascontiguousarray(tets))
@@ -111,7 +109,7 @@ def to_skfem(mesh: TetMesh) -> Any:
     for group in mesh.groups:
         if group.dimension == 2:
             own = mesh.triangle_tags == group.tag
-            boundaries[group.name] = OrientedBoundary(facet[own], side[own])
+            boundaries[group.name] = oriented(facet[own], side[own])
     return result.with_subdomains(subdomains).with_boundaries(boundaries)
 
 

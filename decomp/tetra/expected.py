@@ -14,6 +14,17 @@ ASKED = 20_000
 """Points in the model's box at which regions and lengths are asked."""
 
 
+def least_tets(geometry: Geometry, sizes: Array) -> float:
+    """As many regular tetrahedra with the largest edges wanted fill the regions.
+
+    Args:
+        geometry: of the model.
+        sizes: (r,) the largest length in each region.
+    """
+    volumes = np.array([region.volume for region in geometry.regions])
+    return float((volumes / sizes**3).sum() / REGULAR)
+
+
 def expected_tets(geometry: Geometry, wish: Wishes, sizes: Array, seed: int = 0) -> float:
     """The integral of the density of regular tetrahedra with the wanted edges over all regions.
 

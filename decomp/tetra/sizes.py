@@ -85,7 +85,16 @@ class Wishes:
 
 
 def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
-    """The largest edge length in each region: the user's, the file's `maxh`, or a default."""
+    """The largest edge length in each region: the user's, the file's `maxh`, or a default.
+
+    Raises:
+        InputError: a length is not positive, or the model fits into it.
+    """
+    if wanted.size is not None and wanted.size >= geometry.diagonal:
+        raise InputError(
+            f"size {wanted.size:g} is an edge's length in the model's units, and must be below the "
+            f"model's diagonal, {geometry.diagonal:.4g}"
+        )
     found = []
     for boundary, region in zip(geometry.regions, geometry.model.regions, strict=True):
         default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)

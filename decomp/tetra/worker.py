@@ -1,4 +1,4 @@
-"""The child process in which fTetWild runs: `python -P worker.py IN.npz OUT.npz`.
+"""The child process in which fTetWild runs: `python -P worker.py IN.npz OUT.npz SECONDS`.
 
 It is a script of its own, run by path and without the rest of the package: fTetWild may crash, hang
 or end the process, and it starts sooner this way. Its extension module is loaded without its
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import math
 import signal
 import sys
 from pathlib import Path
@@ -20,6 +21,8 @@ VERSION = "0.4.2"
 """Of pytetwild, whose extension's arguments are given by place."""
 MISSING = 3
 """Exit code: pytetwild is not installed."""
+SPENT = 24
+"""Signal that ends it when its seconds of computing are spent (SIGXCPU)."""
 PR_SET_PDEATHSIG = 1
 
 
@@ -47,8 +50,18 @@ def die_with_parent() -> None:
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
-def main(source: str, target: str) -> int:
+def limit_work(seconds: float) -> None:
+    """Ask the system to end this process when it has computed for so long."""
+    if math.isfinite(seconds) and sys.platform != "win32":
+        import resource
+
+        whole = math.ceil(seconds)
+        resource.setrlimit(resource.RLIMIT_CPU, (whole, whole + 5))
+
+
+def main(source: str, target: str, seconds: str) -> int:
     die_with_parent()
+    limit_work(float(seconds))
     try:
         wrapper = extension()
     except ImportError as error:

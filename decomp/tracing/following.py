@@ -31,8 +31,8 @@ from decomp.vectors import Array, Ints
 
 FLAT = 1e-7
 """Unit vectors that leave a plane by less than this lie in it."""
-LONGEST, FIRST = 0.05, 1e-3
-"""The longest step and the first one, as parts of the size."""
+FIRST = 1e-3
+"""The first step, as a part of the size."""
 SHORTEST = 1e-9
 GROWTH = 1.6
 TURN = 0.9945
@@ -205,6 +205,7 @@ def follow(
     which: Ints,
     track: Track,
     size: float,
+    longest: float,
     home: Array,
     leave: int,
     closable: bool,
@@ -217,6 +218,7 @@ def follow(
         which: supports (m,) of the seam's contacts.
         track: filled in, as long as nothing changes.
         size: of the region.
+        longest: step.
         home: first point and tangent (6,) of the whole seam.
         leave: steps to make before the seam may close.
         closable: whether the seam has the same sites as at `home`.
@@ -239,7 +241,7 @@ def follow(
             if radius <= VANISHED * size and slope < 0.0:
                 return last + 1, ENDED, -1
             limit = 0.5 * radius / -slope if slope < 0.0 else inf
-            step = min(step, LONGEST * size, limit)
+            step = min(step, longest, limit)
             length = step
         else:
             length = (low + high) / 2

@@ -15,7 +15,7 @@ from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
-from decomp.tracing.graph_nodes import GraphNodes
+from decomp.tracing.graph_nodes import GraphNodes, OversteppedError
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay, seam_rays
 from decomp.tracing.seam_graph_model import Node, Piece, Seam, SeamGraph
@@ -35,6 +35,9 @@ BESIDE = 1e-2
 """Seams that pass a point nearer than this part of its radius may be the one that was meant."""
 APART = 1e-3
 """Feet nearer than this part of the radius are one."""
+LONGEST = (0.05, 5e-3, 1e-3)
+"""The longest steps along seams, as parts of the size: a step can lead past a short stretch in
+which a seam has other sites. This shows when two arrive where one does; then steps are shorter."""
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
 
@@ -54,12 +57,19 @@ def seam_graph(
     Raises:
         GeometryError: a seam cannot be followed; says where.
     """
-    grower = _Grower(index, boundary, region)
+    for longest in LONGEST[:-1]:
+        try:
+            return _seam_graph(_Grower(index, boundary, region, longest), samples, seed)
+        except OversteppedError:
+            continue
+    return _seam_graph(_Grower(index, boundary, region, LONGEST[-1]), samples, seed)
+
+
+def _seam_graph(grower: _Grower, samples: int, seed: int) -> SeamGraph:
     grower.start_at_vertices()
     grower.grow()
     for turn in range(ROUNDS):
-        seeds = seam_seeds(index, boundary, region, samples, seed + turn)
-        if not grower.start_at(seeds):
+        if not grower.start_at(grower.seeds(samples, seed + turn)):
             break
     grower.check()
     return grower.graph
@@ -74,8 +84,8 @@ def missed_seams(
     seed: int,
 ) -> Array:
     """Points (k, 3) on seams that a graph lacks, as seen from random boundary points."""
-    grower = _Grower(index, boundary, region)
-    seeds = seam_seeds(index, boundary, region, samples, seed)
+    grower = _Grower(index, boundary, region, LONGEST[0])
+    seeds = grower.seeds(samples, seed)
     seams = KnownSeams(support_table(boundary, index.sites), boundary.diagonal, graph.seams)
     unknown = grower.unknown(seeds, seams)
     return np.array([s.point for s in grower.settled(seeds, unknown)]).reshape(-1, 3)
@@ -84,11 +94,13 @@ def missed_seams(
 class _Grower:
     """Grows the graph from nodes whose rays have not been followed yet."""
 
-    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
+    def __init__(
+        self, index: SiteIndex, boundary: RegionBoundary, region: int, longest: float
+    ) -> None:
         self._index, self._boundary, self._region = index, boundary, region
         self._size = boundary.diagonal
         self._points = SeamPoints(index, boundary, region)
-        self._tracer = SeamTracer(self._points)
+        self._tracer = SeamTracer(self._points, longest)
         self._seams = KnownSeams(self._points.table, self._size)
         self._nodes = GraphNodes(self._points, self._seams)
         self._lost: list[tuple[Array, Array]] = []
@@ -98,6 +110,10 @@ class _Grower:
     def graph(self) -> SeamGraph:
         """What has been found."""
         return SeamGraph(tuple(self._nodes.nodes), self._seams.seams)
+
+    def seeds(self, samples: int, seed: int) -> Seeds:
+        """Places of seams, as seen from random boundary points."""
+        return seam_seeds(self._index, self._boundary, self._region, samples, seed)
 
     def start_at_vertices(self) -> None:
         """Add every convex vertex that a seam leaves."""

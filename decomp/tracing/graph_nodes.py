@@ -24,6 +24,10 @@ CELL = 1e-3
 ENDING = 1e-5
 
 
+class OversteppedError(GeometryError):
+    """A seam contradicts others: one was followed past a place where its sites change."""
+
+
 class GraphNodes:
     """Nodes of one region.
 
@@ -160,7 +164,7 @@ class GraphNodes:
             self._add_fin(number, last, contacts, seam)
             return
         if not fitting:
-            raise GeometryError(f"a seam arrives at {place(node.point)} where none leaves")
+            raise OversteppedError(f"a seam arrives at {place(node.point)} where none leaves")
         best = max(fitting, key=lambda k: float(node.rays[k].direction @ -last.tangent))
         self.taken[number, best] = seam
 

@@ -32,10 +32,16 @@ MET = 1e-6
 
 
 class SeamTracer:
-    """Follows seams of one region."""
+    """Follows seams of one region.
 
-    def __init__(self, points: SeamPoints) -> None:
+    Args:
+        points: of its seams.
+        longest: step, as a part of its size.
+    """
+
+    def __init__(self, points: SeamPoints, longest: float) -> None:
         self._points, self._stops = points, SeamStops(points)
+        self._longest = longest * points.size
         self._probe = points.queries.probe
 
     def trace(self, start: State, stops: Callable[[Array], bool] | None = None) -> Traced:
@@ -56,7 +62,15 @@ class SeamTracer:
             stretch.put(0, here)
             same = here.sites == start.sites
             count, why, contact = follow(
-                points.table, self._probe, stretch.which, stretch.track, size, home, steps, same
+                points.table,
+                self._probe,
+                stretch.which,
+                stretch.track,
+                size,
+                self._longest,
+                home,
+                steps,
+                same,
             )
             steps += count - 1
             last = stretch.state(count - 1)

@@ -11,6 +11,7 @@ import numpy as np
 
 from decomp.cells.surface import side_triangles
 from decomp.errors import InputError
+from decomp.optional import needed
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.quality import radius_ratios
 from decomp.vectors import Array, Ints
@@ -74,7 +75,9 @@ def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:
         return _of_grid(path)
     if skeleton is None:
         known = ", ".join((*MODELS, *MESHES, *SKELETONS))
-        raise InputError(f"{path}: {suffix!r} is nothing that can be viewed; there are {known}")
+        raise InputError(
+            f"{path}: {suffix!r} is nothing that can be viewed; views are of {known} files"
+        )
     return Scene(skeleton.name, tuple(_of_skeleton(skeleton)), "radius")
 
 
@@ -127,17 +130,15 @@ def _of_mesh(path: Path) -> Scene:
 
 def _of_grid(path: Path) -> Scene:
     """A skeleton's or mid-surface's .vtu file."""
-    try:
-        import pyvista
-    except ImportError:
-        raise InputError(
-            f"{path}: .vtu files are read by pyvista; install it with: pip install pyvista"
-        ) from None
+    pyvista = needed("pyvista", "pyvista", f"{path}: reading .vtu files")
     from decomp.output.elements import SURFACES
 
     grid = pyvista.read(path)
     if "sheet" not in grid.cell_data or "radius" not in grid.point_data:
-        raise InputError(f"{path}: this is no skeleton of decomp's: it has no sheets and radii")
+        raise InputError(
+            f"{path}: this is no skeleton of decomp's: it has no sheets and radii; "
+            "of a mesh, view the .msh file"
+        )
     rows = np.flatnonzero(grid.celltypes == int(pyvista.CellType.TRIANGLE))
     triangles = np.asarray(grid.cells_dict[int(pyvista.CellType.TRIANGLE)], dtype=np.int64)
     sheet, surface = (np.asarray(grid.cell_data[name])[rows] for name in ("sheet", "surface"))

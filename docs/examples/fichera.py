@@ -56,12 +56,16 @@ def factored(a: csr_matrix) -> SuperLU:
     return splu(a.tocsc(), "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric)
 
 
-def solved(size: float, order: int) -> tuple[float, float]:
-    """Mean edge length and the lowest eigenvalue; nodes of order 2 lie on the exact sphere."""
+def meshed(size: float, order: int) -> skfem.Mesh:
+    """The ball without the octant; nodes of order 2 lie on the exact sphere."""
     ball = decomp.Sphere((0, 0, 0), 1, name="ball")
     octant = decomp.Block((0, 0, 0), (2, 2, 2), name="octant")
     made = decomp.mesh(ball - octant, size=size, order=order, volumes="regions", sheets=False)
-    mesh = made.to_skfem()
+    return made.to_skfem()
+
+
+def solved(mesh: skfem.Mesh, order: int) -> tuple[float, float]:
+    """Mean edge length and the lowest eigenvalue, with elements of an order."""
     basis = skfem.Basis(mesh, skfem.ElementTetP1() if order == 1 else skfem.ElementTetP2())
     stiffness = skfem.BilinearForm(lambda u, v, w: dot(grad(u), grad(v))).assemble(basis)
     mass = skfem.BilinearForm(lambda u, v, w: u * v).assemble(basis)
@@ -75,7 +79,9 @@ def solved(size: float, order: int) -> tuple[float, float]:
 
 def convergence(sizes: tuple[float, ...], order: int) -> tuple[list[float], list[float], float]:
     """Edge lengths, eigenvalues, and the slope of the logarithms of the relative errors."""
-    lengths, found = map(list, zip(*(solved(size, order) for size in sizes), strict=True))
+    lengths, found = map(
+        list, zip(*(solved(meshed(size, order), order) for size in sizes), strict=True)
+    )
     errors = np.array(found) / EXACT - 1
     return lengths, found, float(np.polyfit(np.log(lengths), np.log(errors), 1)[0])
 

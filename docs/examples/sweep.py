@@ -17,6 +17,7 @@ meshed, with symmetry on three sides. What must hold, in parts of the stiffness 
 from __future__ import annotations
 
 import sys
+from functools import cache
 from math import pi
 
 import numpy as np
@@ -33,6 +34,7 @@ SMALL = (0.8, 1.2, 1.6)
 RADII = (0.0, *SMALL, 2.4, 3.6, 5.0, 6.5, 8.0)
 
 
+@cache
 def meshed(radius: float) -> skfem.MeshTet:
     """An eighth of the plate, its hole's axis along z, with elements of order 2."""
     plate: decomp.Solid = decomp.Block((0, 0, 0), (SIDE / 2, SIDE / 2, THICK / 2), name="plate")

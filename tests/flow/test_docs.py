@@ -1,47 +1,45 @@
-"""The docs' first page works by the letter; the reference is the code's; the site builds."""
+"""The docs' pages work by the letter; the reference is the code's; the site builds."""
 
 from __future__ import annotations
 
 import re
-import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+import decomp
 from decomp.cli.main import main
+from decomp.formats.native_schema import NODES, PRIMITIVES
+from tests import pages
 
 ROOT = Path(__file__).parent.parent.parent
-START = (ROOT / "docs" / "index.md").read_text()
+PAGES = {
+    "api.md": (1, ""),
+    "formats.md": (7, "plate.geo ring.csg washer.json same.json"),
+    "tutorial.md": (8, "blind_hole.msh blind_hole.png blind_hole.html pipe.geo pipe.vtu"),
+}
+"""Pages whose blocks are executed, how many there are, and the files that are there then."""
 
 
-def test_the_first_page(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+@pytest.mark.parametrize("page", PAGES)
+def test_pages_are_true(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    files = re.findall(r"```text (\S+)\n(.*?)```", START, flags=re.DOTALL)
-    assert [name for name, _ in files] == ["plate.geo"]
-    for name, text in files:
-        Path(name).write_text(text)
-    blocks = re.findall(r"```sh\n(.*?)```", START, flags=re.DOTALL)
-    lines = [line for block in blocks for line in block.splitlines()]
-    assert len(lines) == 6
-    for line in lines:
-        program, *words = shlex.split(line)
-        if program == "decomp":
-            assert main(words) == 0, line
-    assert {path.name for path in tmp_path.iterdir()} == {
-        "plate.geo", "plate.msh", "plate.html", "middle.vtu"
-    }  # fmt: skip
-    assert "thickness           5 to 5" in capsys.readouterr().out
+    (tmp_path / "meshes").symlink_to(ROOT / "meshes")
+    count, files = PAGES[page]
+    assert pages.run(f"docs/{page}", tmp_path) == count
+    assert {path.name for path in tmp_path.iterdir()} - {"meshes"} == set(files.split())
 
 
-def test_the_first_pages_python(capsys: pytest.CaptureFixture[str]) -> None:
-    (code,) = re.findall(r"```python\n(.*?)```", START, flags=re.DOTALL)
-    exec(compile(code, "index.md", "exec"), {})
-    said = re.findall(r"# (\S+)$", code, flags=re.MULTILINE)
-    assert capsys.readouterr().out.split() == said == ["face", "True"]
+def test_the_native_nodes_are_all_told_of() -> None:
+    told = dict(
+        re.findall(r"^\| `(\w+)` \| (.*) \|$", (ROOT / "docs/formats.md").read_text(), re.M)
+    )
+    known = {name: tuple(fields) for name, (_, fields) in PRIMITIVES.items()} | NODES
+    assert {name: told[name] for name in known} == {
+        name: ", ".join(f"`{key}`" for key in keys) for name, keys in known.items()
+    }
 
 
 def test_the_command_reference_is_the_codes() -> None:
@@ -69,7 +67,11 @@ def test_a_file_of_another_program(tmp_path: Path, capsys: pytest.CaptureFixture
 def test_the_site_builds(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
     pytest.importorskip("material")
+    pytest.importorskip("mkdocstrings")
     words = [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", str(tmp_path / "site")]
     run = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     assert "decomp mesh" in (tmp_path / "site" / "commands" / "index.html").read_text()
+    python = (tmp_path / "site" / "api" / "index.html").read_text()
+    for name in decomp.__all__:
+        assert f'id="decomp.{name}"' in python, name

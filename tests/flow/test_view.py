@@ -44,7 +44,7 @@ def test_parts_of_each_kind_of_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
-        ("x.stl", "solid", "'.stl' is nothing that can be viewed; there are .geo"),
+        ("x.stl", "solid", "'.stl' is nothing that can be viewed; views are of .geo"),
         ("x.msh", "no mesh", "x.msh"),
         ("none.geo", None, "none.geo"),
     ],
@@ -71,6 +71,42 @@ def test_an_image_without_a_display(tmp_path: Path) -> None:
         own = np.array(rgb(colour))
         near = np.abs(tones / tones.max(axis=1, keepdims=True) - own / own.max()).max(axis=1) < 0.03
         assert near.mean() > 0.05
+
+
+@pytest.fixture(scope="module")
+def window() -> Any:
+    """A window that is on no screen, on the block's skeleton."""
+    pyvista = pytest.importorskip("pyvista", reason="pyvista is not installed")
+    from decomp.view.window import Window
+
+    scene = scene_of(Path("block.geo"), block().skeleton)
+    return Window(scene, pyvista, off_screen=True, window_size=(300, 240))
+
+
+def test_the_window_explodes(window: Any) -> None:
+    assert len(window.shown) == 13
+    window.explode(1.0)
+    away = [np.linalg.norm(actor.position) for part in window.shown for actor in part.actors]
+    assert sum(length > 0.3 for length in away) >= 12
+    window.explode(0.0)
+    assert all(tuple(actor.position) == (0, 0, 0) for p in window.shown for actor in p.actors)
+
+
+def test_the_window_slices_and_tells_names(window: Any) -> None:
+    def opaque() -> int:
+        pixels = window.plotter.screenshot(return_img=True).astype(int)
+        return int((np.ptp(pixels, axis=2) > 40).sum())
+
+    names = {window.name_at(x, y) for x in range(100, 200, 10) for y in range(80, 160, 10)}
+    assert len(names) > 3
+    assert names <= {part.name for part in window.shown} | {""}
+    assert window.name_at(1, 120) == ""
+    whole = opaque()
+    window.slice_across(2)
+    window.slice(0.3)
+    assert 0 < opaque() < 0.8 * whole
+    window.slice(0.0)
+    assert opaque() < 0.02 * whole
 
 
 def test_categories_differ_to_colour_blind_eyes() -> None:

@@ -145,3 +145,14 @@ def test_a_seam_that_cannot_be_settled_is_an_error(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(SeamPoints, "settled", lambda *_: None)
     with pytest.raises(GeometryError, match="cannot be found exactly"):
         graph_of(washer())
+
+
+def test_a_seam_that_misses_the_corner_of_its_face_is_traced_again() -> None:
+    """The foot on boss.ymax crosses the corner (4.3, 3.5) of what the base takes from that face."""
+    solid = (
+        decomp.Block((0, 0, 0), (4.3, 3.55, 3.5), name="base")
+        | decomp.Block((1.65, 1.87, 0), (3.65, 1.4, 3.93), name="boss")
+    ) - decomp.Block((-1, 1.2, 1.93), (4.84, 3, 2.07), name="cut")
+    _, graph = graph_of(solid)
+    near = [n for n in graph.nodes if norm(n.point - (4.285, 2.82525, 3.485)) < 0.01]
+    assert [len(node.rays) for node in near] == [4]

@@ -15,7 +15,7 @@ import pytest
 
 from decomp.errors import DecompError, GeometryError, InputError
 from decomp.tetra import child
-from decomp.tetra.child import MeshingError, Settings, SizeField, tetrahedralized
+from decomp.tetra.child import MeshingError, Settings, SizeField, TimeLimit, tetrahedralized
 from decomp.tetra.faces import faces_of, volumes
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
@@ -78,7 +78,7 @@ def test_a_cube_is_filled() -> None:
 @pytest.mark.parametrize(("scale", "offset"), [(1e-9, 0.0), (1.0, 1e9), (1e6, -1e8)])
 def test_any_place_and_scale(scale: float, offset: float) -> None:
     settings = Settings(0.4 * scale, 0.01 * scale)
-    made = tetrahedralized(scale * CORNERS + offset, CUBE, settings, timeout=60)
+    made = tetrahedralized(scale * CORNERS + offset, CUBE, settings, limit=TimeLimit(60))
     assert np.ptp(made.points, axis=0).min() > 0.98 * scale
     assert abs(made.points.mean(axis=0) - offset).max() < scale
 
@@ -187,11 +187,19 @@ def test_a_hanging_child_is_killed_with_its_children(
         """,
     )
     start = time.monotonic()
-    with pytest.raises(MeshingError, match="did not end within 1 s"):
-        tetrahedralized(CORNERS, CUBE, COARSE, timeout=1)
+    with pytest.raises(MeshingError, match="did not end within 2 s"):
+        tetrahedralized(CORNERS, CUBE, COARSE, limit=TimeLimit(2))
     assert time.monotonic() - start < 20
     assert len(processes(log)) == 4
     assert all(gone(process) for process in processes(log))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no limit of computing there")
+def test_too_much_work_is_ended() -> None:
+    """By the seconds that it computes: on a busy machine the clock says little."""
+    fine = Settings(edge_length=0.012, epsilon=0.002)
+    with pytest.raises(MeshingError, match=r"within 1 s of computing .*within 1 s of computing"):
+        tetrahedralized(CORNERS, CUBE, fine, limit=TimeLimit(clock=100, busy=1))
 
 
 def test_every_child_has_a_directory_of_its_own_that_is_removed(
@@ -215,14 +223,14 @@ def test_no_orphan_is_left(tmp_path: Path, how: signal.Signals) -> None:
     program = f"""
 import subprocess, sys
 import decomp.tetra.child as child
-from tests.tetra.test_child import CORNERS, CUBE, Settings
+from tests.tetra.test_child import CORNERS, CUBE, Settings, TimeLimit
 old = subprocess.Popen
 def noted(*args, **options):
     made = old(*args, **options)
     print(made.pid, file=open({str(log)!r}, "a"), flush=True)
     return made
 child.subprocess.Popen = noted
-child.tetrahedralized(CORNERS, CUBE, Settings(0.01, 0.0016), timeout=100)
+child.tetrahedralized(CORNERS, CUBE, Settings(0.01, 0.0016), limit=TimeLimit(100))
 """
     parent = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.PIPE)
     for _ in range(400):

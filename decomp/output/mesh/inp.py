@@ -21,6 +21,8 @@ from decomp.vectors import Ints
 
 LONGEST = 80
 PER_LINE = 12
+FIELD = 20
+"""So many characters of a number are read; CalculiX stops where an exponent is cut in two."""
 SIDES = (1, 2, 3, 4)
 """Abaqus's number of each face of `incidence.FACES`: 1-2-3, 1-4-2, 2-4-3, 3-4-1."""
 
@@ -80,8 +82,17 @@ def _joined_regions(volumes: list[Group]) -> list[str]:
 
 
 def _nodes(mesh: TetMesh) -> Iterator[str]:
-    for number, (x, y, z) in enumerate(mesh.points.tolist(), 1):
-        yield f"{number}, {x!r}, {y!r}, {z!r}"
+    for number, point in enumerate(mesh.points.tolist(), 1):
+        yield ", ".join([str(number), *map(number_field, point)])
+
+
+def number_field(value: float) -> str:
+    """The number with as many digits as a field takes."""
+    exact = repr(value)
+    if len(exact) <= FIELD:
+        return exact
+    fitting = (f"{value:.{digits}g}" for digits in range(16, 0, -1))
+    return next(text for text in fitting if len(text) <= FIELD)
 
 
 def _surfaces(mesh: TetMesh, surfaces: list[Group], names: list[str]) -> Iterator[str]:

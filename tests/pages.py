@@ -1,0 +1,80 @@
+"""The pages of the documentation, executed block by block in the order in which they stand.
+
+Blocks are told by what follows their opening fence:
+
+- `text NAME`: a file of that name;
+- `text` that begins with `$ `: commands with what they print, in which `...` stands for anything;
+- `sh`: commands; those of `decomp` are run, others (`pip install`...) must be known;
+- `python`: run, all of a page in one namespace; what `print(...)  # ...` prints is in its comment;
+- `py`, `console` and others: not executed, as what they need is not here; the page says so.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import shlex
+from collections.abc import Iterator
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+from decomp.cli.main import main
+
+ROOT = Path(__file__).parent.parent
+BLOCK = re.compile(r"^```(\w*) ?(\S*)\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
+NOT_RUN = ("pip install", "python3 -m venv", ". .venv/bin/activate")
+
+
+def blocks(page: str) -> Iterator[tuple[str, str, str]]:
+    """Language, file name and text of each block."""
+    for match in BLOCK.finditer((ROOT / page).read_text()):
+        yield match[1], match[2], match[3]
+
+
+def run(page: str, place: Path) -> int:
+    """Execute a page in a directory, which is the current one; how many blocks were run."""
+    names: dict[str, Any] = {"__name__": "page"}
+    count = 0
+    for language, name, text in blocks(page):
+        if language == "text" and name:
+            (place / name).write_text(text)
+        elif language == "text" and text.startswith("$ "):
+            _transcript(text)
+        elif language == "sh":
+            for line in text.splitlines():
+                _command(line)
+        elif language == "python":
+            _python(page, text, names)
+        else:
+            continue
+        count += 1
+    return count
+
+
+def _command(line: str) -> None:
+    words = shlex.split(line, comments=True)
+    if words[:1] == ["decomp"]:
+        assert main(words[1:]) == 0, line
+    else:
+        assert line.startswith(NOT_RUN), line
+
+
+def _transcript(text: str) -> None:
+    for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
+        line, _, promised = part.partition("\n")
+        said = io.StringIO()
+        with redirect_stdout(said), redirect_stderr(said):
+            main(shlex.split(line)[1:])
+        found = said.getvalue()
+        pattern = re.escape(promised).replace(re.escape("...\n"), r"(?s:.*)")
+        assert re.fullmatch(pattern.replace(r"\.\.\.", ".*"), found), found
+
+
+def _python(page: str, text: str, names: dict[str, Any]) -> None:
+    printed: list[str] = []
+    names["print"] = lambda *what: printed.append(" ".join(map(str, what)))  # libraries print too
+    exec(compile(text, page, "exec"), names)
+    promised = re.findall(r"^ *print\(.*\)  +# (.*)$", text, flags=re.MULTILINE)
+    assert len(promised) == len(re.findall(r"\bprint\(", text)), "a print without its comment"
+    assert printed == promised
