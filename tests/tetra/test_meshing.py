@@ -104,7 +104,8 @@ def test_sheet_nodes_are_equally_far_from_the_cells_on_both_sides(name: str) -> 
     sheet = [tag for tag, kind in kinds.items() if kind is GroupKind.SHEET]
     nodes = np.unique(mesh.triangles[np.isin(mesh.triangle_tags, sheet)])
     nodes = np.setdiff1d(nodes, mesh.unprojected)
-    # away from its sheet a node has one nearest place, on it at least two
+    # away from its sheet a node has one nearest place, which moves as far as the node itself does;
+    # on it there are at least two, which come close to each other where a sheet ends in a rim
     step = 1e-5 * exact.diagonal
     ways = np.random.default_rng(1).normal(size=(40, 3))
     ways /= np.linalg.norm(ways, axis=1)[:, None]
@@ -114,7 +115,7 @@ def test_sheet_nodes_are_equally_far_from_the_cells_on_both_sides(name: str) -> 
     spread = np.linalg.norm(feet - feet[0], axis=2).max(axis=0)
     inner = depth > 0.02 * exact.diagonal
     assert inner.any()
-    assert (spread[inner] > 0.05 * depth[inner]).mean() > 0.98
+    assert (spread[inner] > 10 * step).mean() > 0.99
 
 
 @pytest.mark.parametrize("name", PLANAR)
