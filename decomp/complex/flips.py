@@ -1,8 +1,8 @@
 """Flips: the other diagonal where two triangles of a patch meet.
 
-A flip is made when it unfolds, else when it brings the chord error closer to the limit, else when
-the error stays within the limit and the least angle grows. None of the three measures gets worse
-for the sake of a later one, so flipping ends.
+A flip is made when it unfolds, else when it leaves less of the area folded, else when it brings the
+chord error closer to the limit, else when the error stays within the limit and the least angle
+grows. No measure gets worse for the sake of a later one, so flipping ends.
 """
 
 from __future__ import annotations
@@ -16,6 +16,9 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 UPRIGHT = 0.2
 """A triangle is upright enough where its normal and the surface's have this inner product."""
+
+LEVEL = 0.02
+"""Changes of leaning by less than this do not count where the folded area shrinks."""
 
 ROUNDS = 60
 
@@ -111,8 +114,13 @@ def _round(mesh: Mesh) -> int:
     lean_gain = lean[k] - leaning(upright1) - leaning(upright2)
     over_gain = over[k] - sum(excess(mesh, e) for e in (error, error1, error2))
     angle_gain = new_angle[k] - old_angle[k]
-    good = (lean_gain > 1e-3) | (
-        (lean_gain >= 0) & ((over_gain > 1e-3) | ((over_gain >= 0) & (angle_gain > 1e-2)))
+    fold_gain = sum(_folded(mesh, mesh.triangles[t[k]], mesh.upright[t[k]]) for t in (t1, t2))
+    fold_gain = fold_gain - _folded(mesh, new1[k], upright1) - _folded(mesh, new2[k], upright2)
+    good = (lean_gain > 1e-3) | ((fold_gain > 0) & (lean_gain > -LEVEL))
+    good |= (
+        (lean_gain >= 0)
+        & ((over_gain > 1e-3) | ((over_gain >= 0) & (angle_gain > 1e-2)))
+        & (fold_gain >= 0)
     )
     j = np.flatnonzero(good)
     waiting = np.concatenate([t1[k[j]], t2[k[j]]])
@@ -135,6 +143,15 @@ def _round(mesh: Mesh) -> int:
     at, _ = found(mesh.edges.keys, ((patch + 1) << 2 * BITS) | pair_keys(c[k], d[k]))
     mesh.edges.error[at], mesh.edges.middle[at] = error[j], middle[j]
     return len(k)
+
+
+def _folded(mesh: Mesh, triangles: Ints, upright: Array) -> Array:
+    """Twice the areas (k,) of triangles that lie on their backs, else 0.
+
+    A fold can reach over many triangles; flips inside it take it to its end step by step.
+    """
+    a, b, c = (mesh.points[triangles[:, k]] for k in range(3))
+    return np.asarray(np.where(upright < 0, norm(cross(b - a, c - a)), 0.0))
 
 
 def next_half(half: Ints) -> Ints:
