@@ -113,7 +113,7 @@ def test_help(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["mesh", "--help"])
     text = capsys.readouterr().out
-    for part in ("examples:", "--layers N", "--report FILE.json", "(default 600"):
+    for part in ("examples:", "--layers N", "--report FILE.json", "(default: 600"):
         assert part in text
 
 
