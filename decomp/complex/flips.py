@@ -20,6 +20,9 @@ UPRIGHT = 0.2
 LEVEL = 0.02
 """Changes of leaning by less than this do not count where the folded area shrinks."""
 
+THINNEST = 1e-6
+"""Triangles with a smaller angle, in radians, are none: their vertices lie on a straight line."""
+
 ROUNDS = 60
 
 
@@ -95,6 +98,7 @@ def _round(mesh: Mesh) -> int:
     new_angle = np.minimum(*(least_angles(mesh.points[new]) for new in (new1, new2)))
     better = (lean > 0) | (_convex(mesh.points, a, b, c, d))
     better &= (lean > 0) | (over > 0) | (new_angle > old_angle + 1e-2)
+    better &= new_angle > THINNEST
 
     # the cheap part of the new error first
     k = np.flatnonzero(better)

@@ -18,8 +18,10 @@ from decomp.medial.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
 from decomp.medial.trim_surfaces import RuledSurface, strip
-from decomp.vectors import Array, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 
+STRAIGHT = 1e-9
+"""The area of a triangle on a straight line, in parts of the square of its side."""
 AT_END = 1e-6
 """Points nearer to each other than this part of the size are one."""
 
@@ -254,7 +256,18 @@ class TrimMaker:
         if given.curve.closed and len(given.lower) > 1:
             return self._ring(given.curve, given.lower, given.lower_s, given.upper, given.upper_s)
         height = self._heights(given.curve, given.upper, given.upper_s)
-        return strip(given.lower, given.lower_s, given.upper, given.upper_s, height)
+        found = strip(given.lower, given.lower_s, given.upper, given.upper_s, height)
+        if self._on_lines(found).any():
+            # the upper border is straight in space, as where all normals end in a cylinder's axis
+            level = np.ones(len(given.upper))
+            found = strip(given.lower, given.lower_s, given.upper, given.upper_s, level)
+        return found
+
+    def _on_lines(self, triangles: Ints) -> Bools:
+        """Which triangles have their three vertices on a straight line."""
+        a, b, c = (self._points[triangles[:, k]] for k in range(3))
+        square = np.maximum(norm(b - a), norm(c - a)) ** 2
+        return np.asarray(norm(cross(b - a, c - a)) <= STRAIGHT * square)
 
     def _heights(self, curve: NormalCurve, upper: Ints, upper_s: Array) -> Array:
         """How high (k,) vertices are above the edge, in units of its parameter."""

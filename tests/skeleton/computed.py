@@ -47,6 +47,12 @@ LONG = {
 UNFINISHED: dict[str, str] = {}
 """Models whose skeleton cannot be computed yet, and why."""
 
+ROUNDING = {
+    "wide offset tee": "two rims meet where an edge keeps its distance to fourth order; whether "
+    "they are joined depends on the processor's rounding",
+}
+"""Models whose skeleton is computed on some machines only, and why."""
+
 
 def param(name: str, *values: object) -> pytest.ParameterSet:
     """A test's parameters, marked if the model is known to fail, or to take long."""
@@ -54,6 +60,8 @@ def param(name: str, *values: object) -> pytest.ParameterSet:
     if name in UNFINISHED:
         reason = UNFINISHED[name]
         marks.append(pytest.mark.xfail(reason=reason, strict=True))
+    if name in ROUNDING:
+        marks.append(pytest.mark.xfail(reason=ROUNDING[name], strict=False))
     if name in SLOW | LONG:
         marks.append(pytest.mark.slow)
     return pytest.param(name, *values, marks=marks)
