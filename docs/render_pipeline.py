@@ -15,10 +15,10 @@ from PIL import Image, ImageDraw, ImageFont
 import decomp
 from decomp.cells.surface import side_triangles
 from decomp.medial.result import Skeleton
-from decomp.output.mesh.picture import EYE, FINER, HEIGHT, LIGHT, WIDTH, draw, projected
+from decomp.output.mesh.picture import HEIGHT, WIDTH, painted
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import GroupKind, TetMesh
-from decomp.vectors import Array, Ints, cross, norm
+from decomp.vectors import Array, Ints
 from decomp.view.colours import CATEGORIES, rgb
 
 MODEL = Path(__file__).parents[1] / "meshes" / "blind_hole.geo"
@@ -95,13 +95,7 @@ def panel(parts: list[Part]) -> Image.Image:
     """A picture of triangles, lit from above."""
     corners = np.concatenate([corners for _, corners, _ in parts])
     shades = np.concatenate([np.tile(colour, (len(corners), 1)) for _, corners, colour in parts])
-    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(norm(normal), 1e-300)[:, None]
-    normal *= np.where(normal @ EYE < 0, -1.0, 1.0)[:, None]
-    bright = 0.55 + 0.45 * np.abs(normal @ (LIGHT / np.linalg.norm(LIGHT)))
-    size = (HEIGHT * FINER, WIDTH * FINER)
-    image = np.ones((*size, 3))
-    draw(projected(corners), shades * bright[:, None], image, np.full(size, -np.inf))
+    image = painted(corners, shades)
     whole = Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8))
     return whole.resize(PANEL, Image.Resampling.LANCZOS)
 

@@ -15,6 +15,7 @@ from decomp.optional import needed
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.quality import radius_ratios
 from decomp.vectors import Array, Ints
+from decomp.view.colours import CATEGORIES
 
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
@@ -55,6 +56,22 @@ class Scene:
     title: str
     parts: tuple[Part, ...]
     values: str
+
+    @property
+    def opaque(self) -> str:
+        """The group that is seen first: the sheets, or the cells of a mesh."""
+        groups = {part.group for part in self.parts}
+        return "cell" if self.values == "quality" or "sheet" not in groups else "sheet"
+
+
+def coloured(scene: Scene) -> list[tuple[Part, str]]:
+    """The opaque parts with a colour each: by kind if there are several, else by number."""
+    shown = [part for part in scene.parts if part.group == scene.opaque]
+    kinds = list(dict.fromkeys(part.kind for part in shown))
+    return [
+        (part, CATEGORIES[(kinds.index(part.kind) if len(kinds) > 1 else k) % len(CATEGORIES)])
+        for k, part in enumerate(shown)
+    ]
 
 
 def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from decomp.vectors import Array
-from decomp.view.colours import CATEGORIES
-from decomp.view.scene import Part, Scene
+from decomp.view.scene import Part, Scene, coloured
 
 REACH = 0.8
 """The farthest that parts are moved out, in parts of their distance from the middle."""
@@ -45,8 +44,8 @@ class Window:
     def __init__(self, scene: Scene, pyvista: Any, **options: Any) -> None:
         self.plotter = pyvista.Plotter(title=f"{scene.title} - decomp", **options)
         self._pyvista = pyvista
-        self._corners = np.concatenate([part.corners.reshape(-1, 3) for part in scene.parts])
-        self._low, self._high = self._corners.min(axis=0), self._corners.max(axis=0)
+        corners = np.concatenate([part.corners.reshape(-1, 3) for part in scene.parts])
+        self._low, self._high = corners.min(axis=0), corners.max(axis=0)
         self._plane = _plane()
         self._axis, self._share = 1, 1.0
         self.shown = self._parts(scene)
@@ -88,16 +87,9 @@ class Window:
         return self._names.get(self._picker.GetActor(), "")
 
     def _parts(self, scene: Scene) -> tuple[Shown, ...]:
-        groups = {part.group for part in scene.parts}
         is_mesh = scene.values == "quality"
-        solid = "cell" if is_mesh or "sheet" not in groups else "sheet"
-        opaque = [part for part in scene.parts if part.group == solid]
-        kinds = list(dict.fromkeys(part.kind for part in opaque))
-        found = []
-        for number, part in enumerate(opaque):
-            k = kinds.index(part.kind) if len(kinds) > 1 else number
-            found.append(self._part(part, CATEGORIES[k % len(CATEGORIES)], is_mesh))
-        if solid == "sheet":
+        found = [self._part(part, colour, is_mesh) for part, colour in coloured(scene)]
+        if scene.opaque == "sheet":
             for part in scene.parts:
                 if part.group == "face":
                     self.plotter.add_mesh(

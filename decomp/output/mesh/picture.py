@@ -9,6 +9,7 @@ from __future__ import annotations
 import colorsys
 
 import numpy as np
+from numpy.typing import NDArray
 
 from decomp.output.mesh import png
 from decomp.tetra.incidence import faces_of, row_keys
@@ -32,16 +33,27 @@ def encoded(mesh: TetMesh) -> bytes:
     triangles, groups = _shown(mesh)
     corners = mesh.points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(norm(normal), 1e-300)[:, None]
     seen = normal @ EYE > 0
-    screen = projected(corners[seen])
-    bright = 0.55 + 0.45 * np.abs(normal[seen] @ (LIGHT / np.linalg.norm(LIGHT)))
-    colours = _palette(int(mesh.tet_tags.max()) + 1)[groups[seen]] * bright[:, None]
+    image = painted(corners[seen], _palette(int(mesh.tet_tags.max()) + 1)[groups[seen]])
+    return png.encoded(smaller(image))
+
+
+def painted(corners: Array, colours: Array) -> Array:
+    """An image (HEIGHT, WIDTH, 3, each FINER times) of triangles (k, 3, 3), lit from above."""
+    normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal /= np.maximum(norm(normal), 1e-300)[:, None]
+    bright = 0.55 + 0.45 * np.abs(normal @ (LIGHT / np.linalg.norm(LIGHT)))
     size = (HEIGHT * FINER, WIDTH * FINER)
     image = np.ones((*size, 3))
-    draw(screen, colours, image, np.full(size, -np.inf))
+    if len(corners):
+        draw(projected(corners), colours * bright[:, None], image, np.full(size, -np.inf))
+    return image
+
+
+def smaller(image: Array) -> NDArray[np.uint8]:
+    """An image in its final size, with smooth edges."""
     small = image.reshape(HEIGHT, FINER, WIDTH, FINER, 3).mean(axis=(1, 3))
-    return png.encoded((255 * np.clip(small, 0, 1) + 0.5).astype(np.uint8))
+    return np.asarray(255 * np.clip(small, 0, 1) + 0.5).astype(np.uint8)
 
 
 def _shown(mesh: TetMesh) -> tuple[Ints, Ints]:
