@@ -2,7 +2,8 @@
 
 A flip is made when it unfolds, else when it leaves less of the area folded, else when it brings the
 chord error closer to the limit, else when the error stays within the limit and the least angle
-grows. No measure gets worse for the sake of a later one, so flipping ends.
+grows. No measure gets worse for the sake of a later one, but leaning, by less than LEVEL, where a
+fold shrinks; after ROUNDS flipping ends in any case.
 """
 
 from __future__ import annotations

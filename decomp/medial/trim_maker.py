@@ -255,12 +255,16 @@ class TrimMaker:
     def _strip(self, given: _Strip) -> Ints:
         if given.curve.closed and len(given.lower) > 1:
             return self._ring(given.curve, given.lower, given.lower_s, given.upper, given.upper_s)
-        height = self._heights(given.curve, given.upper, given.upper_s)
-        found = strip(given.lower, given.lower_s, given.upper, given.upper_s, height)
+        return self._between(given.curve, given.lower, given.lower_s, given.upper, given.upper_s)
+
+    def _between(
+        self, curve: NormalCurve, lower: Ints, lower_s: Array, upper: Ints, upper_s: Array
+    ) -> Ints:
+        """The triangles between two borders, without folds under hollows of the upper one."""
+        found = strip(lower, lower_s, upper, upper_s, self._heights(curve, upper, upper_s))
         if self._on_lines(found).any():
             # the upper border is straight in space, as where all normals end in a cylinder's axis
-            level = np.ones(len(given.upper))
-            found = strip(given.lower, given.lower_s, given.upper, given.upper_s, level)
+            found = strip(lower, lower_s, upper, upper_s, np.ones(len(upper)))
         return found
 
     def _on_lines(self, triangles: Ints) -> Bools:
@@ -291,7 +295,7 @@ class TrimMaker:
         order = np.argsort(s, kind="stable")
         body, s = body[order], s[order]
         body, s = np.append(body, body[0]), np.append(s, s[0] + period)
-        return strip(lower, lower_s, body, s, self._heights(curve, body, s))
+        return self._between(curve, lower, lower_s, body, s)
 
     def _patch(self, given: _Strip, triangles: Ints) -> tuple[TrimSurface, Patch]:
         """Orient: normals point from the higher-dimensional site's side to the other's."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -245,6 +246,31 @@ def test_a_fold_is_an_error() -> None:
     given = Complex(square, (shapes.face(Plane(shapes.O3, shapes.Z), fan),), tuple(lines))
     with pytest.raises(GeometryError, match="stays folded on the face surface at"):
         refine(given, 0.01)
+
+
+def test_a_fold_over_many_triangles_is_flipped_away() -> None:
+    """A triangle lies on its back, and every single flip leaves one that does; the last does not.
+
+    The border's dent, vertex 1, is beyond the lines from vertex 2 to all vertices on the long side
+    but the first ones.
+    """
+    side = [(x, 0.0) for x in np.linspace(0.2, 2.0, 19)]
+    points = np.array([(0.0, 0.0), (1.4, 0.35), (0.6, 1.0), *side])
+    points = np.column_stack([points, np.zeros(len(points))])
+    first, last = 3, len(points) - 1
+    # a fan of vertex 2, whose last triangle is folded over the dent
+    fan = [[k, k + 1, 2] for k in range(first, last)]
+    triangles = [[0, first, 2], *fan, [last, 1, 2]]
+    loop = [0, *range(first, last + 1), 1, 2, 0]
+    lines = tuple(
+        shapes.edge(shapes.Straight(points[a], points[b]), [a, b]) for a, b in pairwise(loop)
+    )
+    given = Complex(points, (shapes.face(Plane(shapes.O3, shapes.Z), triangles),), lines)
+    assert flipped(given) == 1
+    found = refine(given, 0.01)
+    assert flipped(found) == 0
+    assert len(found.points) == len(points)
+    check_conforming(found)
 
 
 class Nowhere(shapes.Round):
