@@ -46,7 +46,7 @@ def test_the_page(place: Path) -> None:
 
 @pytest.mark.parametrize(
     ("snippet", "modules"),
-    [("dolfinx.py", "dolfinx, gmsh"), ("pymfem.py", "mfem.ser")],
+    [("dolfinx.py", "dolfinx, gmsh"), ("pymfem.py", "mfem.ser"), ("sfepy.py", "sfepy, meshio")],
 )
 def test_other_solvers(
     snippet: str, modules: str, tmp_path: Path, request: pytest.FixtureRequest
