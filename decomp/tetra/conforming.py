@@ -2,7 +2,8 @@
 
 Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
 node has no room there it is merged with a neighbour, or the sheet is taken off the face that it is
-on, and all is done again. At last tetrahedra with small angles are exchanged for better ones.
+on, and all is done again. Then tetrahedra with small angles are exchanged for better ones, and
+nodes that have moved past the end of a sheet or line are put on the next one.
 """
 
 from __future__ import annotations
@@ -20,12 +21,14 @@ from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagged, Tagger
-from decomp.tetra.targets import Finder
+from decomp.tetra.targets import Finder, renewed
 from decomp.vectors import Array, Ints
 
 ROUNDS = 6
 FLIPS = 3
 """How often tetrahedra with small angles are exchanged and nodes smoothed again."""
+SLIPS = 3
+"""How often nodes that slipped past a sheet's or line's end are put where it goes on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,5 +95,12 @@ def conformed(
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
         projector.smooth()
+    for turn in range(SLIPS + 1):
+        targets, slipped = renewed(targets, finder.targets(projector.points, tagged))
+        if not len(slipped) or turn == SLIPS:
+            break
+        projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
+        left = projector.settle()
     off = strayed(projector.points, tagged, plan, elements, diagonal)
-    return Conformed(projector.points, tets, part, tagged, np.union1d(left, off))
+    left = np.unique(np.concatenate([left, slipped, off]))
+    return Conformed(projector.points, tets, part, tagged, left)

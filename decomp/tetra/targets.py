@@ -19,10 +19,10 @@ from decomp.tetra.cells import CellMap, locate
 from decomp.tetra.layout import Layout
 from decomp.tetra.surface import MeshSurface
 from decomp.tetra.tagging import Tagged
-from decomp.vectors import Array, Bools, Ints, cross, norm
+from decomp.vectors import Array, Bools, Ints, norm
 
-ASIDE = 0.5
-"""A sheet's two sides are asked so many epsilons off it."""
+BESIDE = 1e-9
+"""A sheet's two sides are asked this part of the model's diagonal off it."""
 NEAR_CORNER = 6.0
 """A corner takes nodes within so many epsilons."""
 SURFACE, LINE, CORNER = 2, 1, 0
@@ -48,6 +48,23 @@ class Targets:
     complete: Bools
 
 
+def renewed(given: Targets, now: Targets) -> tuple[Targets, Ints]:
+    """Targets found anew for nodes that have moved along what they are on.
+
+    Args:
+        given: that they were moved onto.
+        now: found where they are; of the same nodes.
+
+    Returns:
+        those of nodes on another surface or line now taken from `now`, and these nodes, ascending.
+    """
+    other = given.complete & (given.dimension == now.dimension) & (given.element != now.element)
+    element = np.where(other, now.element, given.element)
+    surface = np.where(other, now.surface, given.surface)
+    made = Targets(given.nodes, given.dimension, element, surface, given.complete)
+    return made, given.nodes[other]
+
+
 class Finder:
     """Finds the targets of nodes.
 
@@ -66,7 +83,10 @@ class Finder:
         elements: Elements,
         epsilon: float,
     ) -> None:
-        self._geometry, self._surface, self._cells = geometry, surface, cells
+        self._geometry, self._cells = geometry, cells
+        self._sites = {
+            patch: sites for region in surface.regions for patch, sites in region.sheets.items()
+        }
         self._plan, self._elements, self._epsilon = plan, elements, epsilon
         self._group: dict[int, tuple[int, ...]] = {
             patch: own for own in plan.between.values() for patch in own
@@ -102,17 +122,19 @@ class Finder:
             np.zeros(len(nodes), dtype=np.int64),
             np.ones(len(nodes), dtype=np.bool_),
         )
-        ambiguous: list[int] = []
+        ambiguous: dict[tuple[int, ...], list[int]] = {}
         for own, listed in by_set.items():
             rows = np.array(listed, dtype=np.int64)
             found.surface[rows] = self._elements.of_patch[own[0]]
             if len(self._kinds(own)) > 1:
                 self._meet(points[nodes[rows]], own, rows, found)
             elif len(self._group.get(own[0], ())) > 1:
-                ambiguous += listed
+                ambiguous.setdefault(self._group[own[0]], []).extend(listed)
             else:
                 found.element[rows] = self._elements.of_patch[own[0]]
-        self._on_one_sheet(points, tagged, np.array(sorted(ambiguous), dtype=np.int64), found)
+        for patches, listed in ambiguous.items():
+            rows = np.array(listed, dtype=np.int64)
+            self._on_one_sheet(points[nodes[rows]], patches, rows, found)
         return found
 
     def kinds(self, tagged: Tagged) -> dict[int, frozenset[int]]:
@@ -179,36 +201,32 @@ class Finder:
         )
         return np.asarray(np.array(lines, dtype=np.int64)[np.argmin(gaps, axis=0)])
 
-    def _on_one_sheet(self, points: Array, tagged: Tagged, rows: Ints, found: Targets) -> None:
-        """Nodes between two cells that several sheets part, one going on as the next.
+    def _on_one_sheet(
+        self, places: Array, patches: tuple[int, ...], rows: Ints, found: Targets
+    ) -> None:
+        """Nodes at places (k, 3) between two cells that several sheets part, one after another.
 
-        The sites on both sides tell which of them a node is on.
+        Each is on the nearest one of those that part their own sites there: where another sheet
+        goes on in its stead, a sheet's continuation does not.
         """
-        if not len(rows):
-            return
-        nodes = found.nodes[rows]
-        normal = np.zeros_like(points)
-        a, b, c = np.moveaxis(points[tagged.triangles], 1, 0)
-        np.add.at(normal, tagged.triangles, cross(b - a, c - a)[:, None])
-        way = normal[nodes] / np.maximum(norm(normal[nodes]), 1e-300)[:, None]
-        way *= ASIDE * self._epsilon
-        sites = locate(
-            self._geometry, self._cells, np.concatenate([points[nodes] - way, points[nodes] + way])
-        ).site.reshape(2, -1)
-        patch_of: dict[tuple[int, int], list[int]] = {}
-        for region in self._surface.regions:
-            for patch, (one, two) in region.sheets.items():
-                patch_of.setdefault((min(one, two), max(one, two)), []).append(patch)
-        nearest = dict(
-            zip(tagged.triangles.reshape(-1).tolist(), np.repeat(tagged.patches, 3), strict=True)
-        )
-        for row, node, low, high in zip(
-            rows, nodes, sites.min(axis=0), sites.max(axis=0), strict=True
-        ):
-            given = int(nearest[int(node)])
-            like = [k for k in patch_of.get((low, high), ()) if k in self._group[given]]
-            patch = given if given in like or not like else like[0]
-            found.element[row] = found.surface[row] = self._elements.of_patch[patch]
+        away, foreign = np.full((2, len(patches), len(rows)), np.inf)
+        for row, patch in enumerate(patches):
+            element = np.full(len(rows), self._elements.of_patch[patch])
+            on, good = placed(
+                self._elements, self._plan.complex.points, found.dimension[rows], element, places
+            )
+            away[row, good] = norm(on - places)[good]
+            foreign[row, good] = ~self._parts(self._sites[patch], element[good], on[good])
+        best = np.lexsort((away, foreign), axis=0)[0]
+        elements = np.asarray(self._elements.of_patch)[np.array(patches, dtype=np.int64)[best]]
+        found.element[rows] = found.surface[rows] = elements
+
+    def _parts(self, sites: tuple[int, int], surfaces: Ints, on: Array) -> Bools:
+        """Whether one of two sites is the nearest on one side of surfaces, the other beyond."""
+        way = BESIDE * self._geometry.diagonal * self._elements.normal(surfaces, on)
+        sides = np.concatenate([on - way, on + way])
+        near = locate(self._geometry, self._cells, sides).site.reshape(2, -1)
+        return np.asarray((np.sort(near, axis=0) == np.sort(sites)[:, None]).all(axis=0))
 
 
 def polyline_distance(line: Array, places: Array) -> Array:
