@@ -6,7 +6,7 @@ from itertools import product
 
 import numpy as np
 
-from decomp.sites.compiled import inner_kernel, kernel
+from decomp.kernels.compiled import inner_kernel, kernel
 from decomp.vectors import Array, Bools, Ints
 
 Period = tuple[float | None, float | None]

@@ -7,10 +7,10 @@ from math import inf, sqrt
 
 import numpy as np
 
-from decomp.sites.compiled import inner
+from decomp.kernels.compiled import inner
+from decomp.kernels.records import Record
 from decomp.sites.measure import NONE, Hit, better, no_hit
 from decomp.sites.occupancy import OccupancyTree
-from decomp.sites.records import Record
 from decomp.sites.site_boxes import box_distance
 from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Ints

@@ -14,14 +14,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import inner, kernel
+from decomp.kernels.compiled import inner, kernel
+from decomp.kernels.records import Record
 from decomp.sites.growing import counted, grown
 from decomp.sites.measure import better, count_of, no_hit
 from decomp.sites.occupancy import OccupancyTree
 from decomp.sites.occupancy_cells import circumradius
 from decomp.sites.octree import DEPTH, Links, Octree, root_centres
 from decomp.sites.programs import NOTHING
-from decomp.sites.records import Record
 from decomp.sites.site_bounds import at_least, possible
 from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Bools, Ints

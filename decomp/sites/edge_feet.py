@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from math import atan2, cos, inf, pi, sin, sqrt
 
-from decomp.sites.carrier_kernels import TINY, CarrierTable, Triple, normal, signed_distance
-from decomp.sites.compiled import inlined, inner, scalar
+from decomp.kernels.carriers import TINY, CarrierTable, Triple, normal, signed_distance
+from decomp.kernels.compiled import inlined, inner, scalar
 from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from decomp.sites.compiled import inner_kernel, kernel
+from decomp.kernels.compiled import inner_kernel, kernel
 from decomp.vectors import Ints
 
 T = TypeVar("T", bound=np.generic)

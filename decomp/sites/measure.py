@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import NamedTuple
 
-from decomp.sites.carrier_kernels import foot, signed_distance
-from decomp.sites.compiled import inlined, inner
+from decomp.kernels.carriers import foot, signed_distance
+from decomp.kernels.compiled import inlined, inner
 from decomp.sites.edge_feet import ARC, circle_distance
 from decomp.sites.occupancy import NOWHERE, OccupancyTree, on_boundary
 from decomp.sites.site_bounds import edge_foot

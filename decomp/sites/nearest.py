@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from decomp.kernels.compiled import inlined, scalar
 from decomp.sites.box_tree import BoxTree, nearest_in_boxes
 from decomp.sites.candidates import CandidateTree
-from decomp.sites.compiled import inlined, scalar
 from decomp.sites.measure import NONE, Hit, better_inlined, no_hit
 from decomp.sites.occupancy import Labels, OccupancyTree
 from decomp.sites.octree import locate

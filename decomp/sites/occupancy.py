@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.sites.carrier_kernels import CarrierTable, carrier_table, signed_distance
-from decomp.sites.compiled import inlined, inner, scalar
+from decomp.kernels.carriers import CarrierTable, carrier_table, signed_distance
+from decomp.kernels.compiled import inlined, inner, scalar
+from decomp.kernels.records import Record
 from decomp.sites.occupancy_cells import circumradius, root_cells, split
 from decomp.sites.occupancy_leaves import (
     OUTSIDE,
@@ -30,7 +31,6 @@ from decomp.sites.programs import (
     flips,
     programs_of,
 )
-from decomp.sites.records import Record
 from decomp.vectors import Array, Ints
 
 Labels = NDArray[np.int32]

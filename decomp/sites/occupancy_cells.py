@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.carrier_kernels import CarrierTable, signed_distance
-from decomp.sites.compiled import inner, inner_kernel, kernel
+from decomp.kernels.carriers import CarrierTable, signed_distance
+from decomp.kernels.compiled import inner, inner_kernel, kernel
 from decomp.sites.growing import counted
 from decomp.sites.programs import (
     EITHER,

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.sites.compiled import inner, kernel
+from decomp.kernels.compiled import inner, kernel
 from decomp.sites.growing import grown
 from decomp.sites.occupancy_cells import Cells, variables_of
 from decomp.sites.programs import (

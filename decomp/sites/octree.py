@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from decomp.sites.compiled import inlined, kernel
+from decomp.kernels.compiled import inlined, kernel
 from decomp.vectors import Array, Ints
 
 DEPTH = 20

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.csg.program import Program
-from decomp.sites.compiled import inlined, inner, inner_kernel, kernel
+from decomp.kernels.compiled import inlined, inner, inner_kernel, kernel
 from decomp.vectors import Ints
 
 Words = NDArray[np.uint64]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import asin, inf, sqrt
 
-from decomp.sites.carrier_kernels import CarrierTable, foot, foot_spread, signed_distance
-from decomp.sites.compiled import inner
+from decomp.kernels.carriers import CarrierTable, foot, foot_spread, signed_distance
+from decomp.kernels.compiled import inner
 from decomp.sites.edge_feet import LINE, SAMPLED, arc_foot, chord_foot, line_foot, sampled_foot
 from decomp.sites.site_boxes import box_distance
 from decomp.sites.site_table import SiteTable

@@ -10,7 +10,7 @@ from decomp.boundary.topology import Edge, Face, RegionBoundary
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.compiled import inlined
+from decomp.kernels.compiled import inlined
 from decomp.vectors import Array
 
 

@@ -13,9 +13,9 @@ import numpy as np
 from decomp.boundary.topology import Convexity, Edge, RegionBoundary
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.carrier_kernels import CarrierTable
+from decomp.kernels.carriers import CarrierTable
+from decomp.kernels.records import Record
 from decomp.sites.edge_feet import ARC, LINE, SAMPLED, chord_gap
-from decomp.sites.records import Record
 from decomp.sites.site_boxes import edge_box, face_box
 from decomp.vectors import Array, Ints
 

@@ -9,18 +9,18 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from decomp.sites import compiled as base
+from decomp.kernels import compiled as base
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
 def scalar(function: F) -> F:
-    """A kernel that makes no arrays, see `decomp.sites.compiled.scalar`."""
+    """A kernel that makes no arrays, see `decomp.kernels.compiled.scalar`."""
     return _stamped(base.scalar(function))
 
 
 def inner(function: F) -> F:
-    """A scalar kernel that only kernels can call, see `decomp.sites.compiled.inner`."""
+    """A scalar kernel that only kernels can call, see `decomp.kernels.compiled.inner`."""
     return _stamped(base.inner(function))
 
 
@@ -31,5 +31,5 @@ def inlined(function: F) -> F:
 
 def _stamped(function: F) -> F:
     here = Path(__file__).parent
-    base.restamp(function, here, here.parent / "sites")
+    base.restamp(function, here, here.parent / "sites", here.parent / "kernels")
     return function

@@ -15,7 +15,7 @@ import numpy as np
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.carrier_kernels import carrier_table
+from decomp.kernels.carriers import carrier_table
 from decomp.sites.site import Site
 from decomp.tracing.balance import fields_at
 from decomp.tracing.supports import CURVE, SupportTable, support_table

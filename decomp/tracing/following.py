@@ -12,7 +12,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from decomp.sites.records import Record
+from decomp.kernels.records import Record
 from decomp.tracing.balance import balance
 from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.probing import (

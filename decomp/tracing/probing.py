@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from decomp.kernels.carriers import Triple, foot
+from decomp.kernels.records import Record
 from decomp.sites.box_tree import BoxTree
 from decomp.sites.candidates import CandidateTree
-from decomp.sites.carrier_kernels import Triple, foot
 from decomp.sites.measure import Hit
 from decomp.sites.nearest import nearest_hit
 from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
-from decomp.sites.records import Record
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
 from decomp.tracing.compiled import inner

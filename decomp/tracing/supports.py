@@ -17,7 +17,7 @@ import numpy as np
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.carrier_kernels import (
+from decomp.kernels.carriers import (
     CONE,
     CYLINDER,
     PLANE,
@@ -30,7 +30,7 @@ from decomp.sites.carrier_kernels import (
     radial,
     signed_distance,
 )
-from decomp.sites.records import Record
+from decomp.kernels.records import Record
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner
 from decomp.vectors import Array, Ints

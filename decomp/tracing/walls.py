@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from decomp.boundary.topology import Convexity, RegionBoundary
-from decomp.sites.carrier_kernels import normal
+from decomp.kernels.carriers import normal
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.following import Track, advance

@@ -11,8 +11,8 @@ import pytest
 from numba import njit
 
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
-from decomp.sites import compiled
-from decomp.sites.carrier_kernels import (
+from decomp.kernels import compiled
+from decomp.kernels.carriers import (
     CarrierTable,
     carrier_table,
     foot,
@@ -20,7 +20,7 @@ from decomp.sites.carrier_kernels import (
     normal,
     signed_distance,
 )
-from decomp.sites.records import Record
+from decomp.kernels.records import Record
 from decomp.vectors import Array, direction, frozen
 
 POINT, AXIS = frozen([0.3, -0.2, 0.1]), direction([1, 2, 2], "axis")

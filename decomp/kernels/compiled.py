@@ -61,7 +61,7 @@ def _compiled(function: F, **options: bool) -> F:
     except RuntimeError:  # numba found no directory to write to
         compiled = njit(**common)(function)
     else:
-        restamp(compiled, Path(__file__).parent)
+        restamp(compiled, Path(function.__code__.co_filename).parent, Path(__file__).parent)
     return cast(F, _without_collecting(_for_plain_types(compiled)))
 
 

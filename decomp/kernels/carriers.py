@@ -13,8 +13,8 @@ from math import hypot, inf, sqrt
 import numpy as np
 
 from decomp.carriers import Carrier
-from decomp.sites.compiled import inlined, inner
-from decomp.sites.records import Record
+from decomp.kernels.compiled import inlined, inner
+from decomp.kernels.records import Record
 from decomp.vectors import Array, Ints
 
 Triple = tuple[float, float, float]

@@ -1,0 +1,1 @@
+"""What compiled kernels are made of: how they are compiled, records, and the carriers."""
