@@ -18,6 +18,7 @@ SWEEPS = 20
 RANK = 1e-7
 """Directions in which the equations change less than this part of the most are left alone."""
 AT_REST = 4e-16
+"""Steps, and differences of distances, below this part of the size are the last."""
 
 Balanced = tuple[float, float, float, float, float]
 
@@ -121,11 +122,14 @@ def balance(
     """
     rows = count - 1
     for _ in range(STEPS):
-        _, least, _ = measure(table, which, first, count, feet, foot, x, y, z, work)
+        _, least, greatest = measure(table, which, first, count, feet, foot, x, y, z, work)
         for k in range(rows):
             for j in range(3):
                 work[k, j] = work[k + 1, 4 + j] - work[0, 4 + j]
         orthogonalise(work, rows)
+        if greatest - least <= AT_REST * size:
+            # where the feet coincide gradients differ by rounding, and steps would be at random
+            break
         most = 0.0
         for j in range(3):
             square = 0.0

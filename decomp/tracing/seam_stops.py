@@ -8,14 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.errors import GeometryError
+from decomp.tracing.arriving import arrival
 from decomp.tracing.fins import fin as merging_feet
 from decomp.tracing.following import advance
-from decomp.tracing.probing import APART
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.tracing.stretch import Stretch
 from decomp.tracing.vertex_fins import at_vertex
-from decomp.tracing.walls import Walls, cross
+from decomp.tracing.walls import ALONG, CROSSED, JOINS, MISSED, Wall, Walls, cross, gap_ahead
 from decomp.vectors import Array, norm, place
 
 FOOT_ON_EDGE = 1e-9
@@ -51,18 +51,23 @@ class SeamStops:
         """Where a further contact joins those of a seam, near the last of `count` rows.
 
         Up to there the distance to it is greater in second order, so that its foot, too, passes to
-        another site there.
+        another site there, or the foot of a contact that it was one with. Behind it feet may stay
+        on the walls of their sites, where rounding tells on which side. So the first of all
+        crossings is the one.
         """
         beyond = stretch.state(count)
         touching = self._points.contacts.at(beyond.point, 1e-10 * self._size)
-        best: tuple[int, State, Array] | None = None
+        best: tuple[int, State] | None = None
+        first = np.inf
         for foot, members in zip(touching.feet, touching.sites, strict=True):
-            if float(norm(beyond.feet - foot).min()) <= APART * beyond.radius:
-                continue
             for site in members:
                 found = self._wall_near(stretch, count, site, foot)
-                if found is not None and (best is None or found[0] > best[0]):
-                    best = found
+                if found is None:
+                    continue
+                base, state, _ = found
+                ahead = float((state.point - beyond.point) @ beyond.tangent)
+                if ahead < first:
+                    first, best = ahead, (base, state)
         if best is None:
             return count, stretch.state(count - 1)
         return stretch.cut(best[0], best[1], self._size), best[1]
@@ -135,26 +140,63 @@ class SeamStops:
                 high = float(norm(stretch.track.points[count] - stretch.track.points[base]))
                 low = 0.0 if base else -1e-3 * high - 1e-6 * self._size
                 spot = np.array(foot)
-                if not cross(
+                high = 1.02 * high + 1e-6 * self._size
+                found = cross(
                     self._points.table,
                     stretch.which,
                     stretch.track,
                     base,
                     spare,
                     low,
-                    1.02 * high + 1e-6 * self._size,
+                    high,
                     spot,
                     wall.edge,
                     wall.carrier,
                     wall.vertex,
                     self._size,
-                ):
+                )
+                if found == JOINS:
+                    found = self._arrive(stretch, base, spare, (low, high), wall, foot, spot)
+                if found == MISSED:
                     continue
                 off = float(norm(spot - foot))
                 if off <= NEAR_WALL * self._size and (best is None or off < best[0]):
                     best = (off, base, stretch.state(spare), spot)
                 break
         return None if best is None else best[1:]
+
+    def _arrive(
+        self,
+        stretch: Stretch,
+        base: int,
+        spare: int,
+        lengths: tuple[float, float],
+        wall: Wall,
+        foot: Array,
+        spot: Array,
+    ) -> int:
+        """Put the point where a seam comes to a wall along which it runs, as `cross` does."""
+
+        def gap(length: float) -> float:
+            spot[:] = foot
+            good, value = gap_ahead(
+                self._points.table,
+                stretch.which,
+                stretch.track,
+                base,
+                spare,
+                length,
+                spot,
+                wall.edge,
+                wall.carrier,
+                wall.vertex,
+                self._size,
+            )
+            return value if good else np.nan
+
+        radius = float(stretch.track.radius[base])
+        found = arrival(gap, *lengths, ALONG * self._size, radius)
+        return CROSSED if found is not None and np.isfinite(gap(found)) else MISSED
 
 
 def nearest_pair(state: State) -> tuple[int, int]:

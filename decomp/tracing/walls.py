@@ -24,6 +24,8 @@ ON_WALL = 1e-16
 ALONG = 1e-13
 """Both ends of a step nearer to a wall than this part of the size: it runs along the wall."""
 NO_ROW = -1
+MISSED, CROSSED, JOINS = 0, 1, 2
+"""A step does not cross a wall; it does; it comes to one along which it runs to its end."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +111,7 @@ def wall_gap(
     return (x - qx) * cx + (y - qy) * cy + (z - qz) * cz
 
 
-@inner
+@scalar
 def gap_ahead(
     table: SupportTable,
     which: Ints,
@@ -148,27 +150,29 @@ def cross(
     carrier: int,
     vertex: int,
     size: float,
-) -> bool:
+) -> int:
     """Put the point where a seam crosses a wall into a row of a track.
 
     It lies between steps `low` and `high` from row `here`; found by regula falsi (Illinois). `spot`
     (3,) is a point of the wall's edge close by, and then the point there.
 
     Returns:
-        Whether it was found.
+        CROSSED if it was found, JOINS if the place is to be read off (`joins`), or MISSED.
     """
     good, fl = gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)
     if not good:
-        return False
+        return MISSED
     good, fh = gap_ahead(table, which, track, here, row, high, spot, edge, carrier, vertex, size)
     if not good or (abs(fl) <= ALONG * size and abs(fh) <= ALONG * size):
-        return False
-    if abs(fh) <= ON_WALL * size:
-        return True
+        return MISSED
+    if abs(fh) <= ALONG * size:
+        return JOINS
     if abs(fl) <= ON_WALL * size:
-        return gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)[0]
+        if gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)[0]:
+            return CROSSED
+        return MISSED
     if not fl * fh < 0.0:
-        return False
+        return MISSED
     side = 0
     for _ in range(ROUNDS):
         step = high - fh * (high - low) / (fh - fl)
@@ -176,7 +180,7 @@ def cross(
             break
         good, f = gap_ahead(table, which, track, here, row, step, spot, edge, carrier, vertex, size)
         if not good:
-            return False
+            return MISSED
         if abs(f) <= ON_WALL * size:
             break
         if f * fh > 0.0:
@@ -189,4 +193,4 @@ def cross(
             if side == -1:
                 fh /= 2
             side = -1
-    return True
+    return CROSSED

@@ -49,8 +49,8 @@ UNFINISHED: dict[str, str] = {}
 """Models whose skeleton cannot be computed yet, and why."""
 
 ROUNDING = {
-    "wide offset tee": "two rims meet where an edge keeps its distance to fourth order; whether "
-    "they are joined depends on the processor's rounding",
+    "wide offset tee": "an edge's sheet with itself is thin beside a seam with three feet on it; "
+    "which of equally near known points serve depends on the processor's rounding",
 }
 """Models whose skeleton is computed on some machines only, and why."""
 

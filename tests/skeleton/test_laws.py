@@ -12,11 +12,17 @@ import pytest
 import decomp
 from decomp.csg.solid import Solid
 from decomp.medial.result import RegionSkeleton, Skeleton
-from tests.skeleton.computed import Region, skeleton_of, source_of
+from tests.skeleton.computed import Region, param, skeleton_of, source_of
+from tests.skeleton.shapes import SHAPES
+from tests.solids import SOLIDS
 
 ROOT = Path(__file__).parents[2]
 SCALE = 0.25
-MOVED = ["block", "bar", "blind hole", "equal angle", "eccentric hole", "cylinder", "bracket"]
+SMALL = 1e-4
+"""Areas differ by the chord error along their borders: by so much of the diagonal's square."""
+NOT_MOVED = {"bulge", "offset tee", "wide offset tee"}
+"""Rounding decides in some positions of these whether they are computed, see docs/decisions.md."""
+MOVED = sorted({*SOLIDS, *SHAPES} - NOT_MOVED)
 
 
 def moved(solid: Solid) -> Solid:
@@ -37,7 +43,7 @@ def pairs(skeleton: Skeleton, region: RegionSkeleton) -> Counter[tuple[str, ...]
     )
 
 
-@pytest.mark.parametrize("name", MOVED)
+@pytest.mark.parametrize("name", [param(name) for name in MOVED])
 def test_similar_solids_have_similar_skeletons(name: str) -> None:
     plain, other = Region(skeleton_of(name)), Region(decomp.skeleton(moved(solid_of(name))))
     assert other.counts() == plain.counts()
@@ -47,12 +53,14 @@ def test_similar_solids_have_similar_skeletons(name: str) -> None:
     assert _parities(other.parts) == _parities(plain.parts)
     for names in pairs(plain.skeleton, plain.parts):
         area = SCALE**2 * plain.area(*names)
-        assert other.area(*names) == pytest.approx(area, rel=5e-3, abs=1e-6)
+        assert other.area(*names) == pytest.approx(
+            area, rel=5e-3, abs=SMALL * other.skeleton.diagonal**2
+        )
     assert [p[3] for p in sorted(other.inner_junctions(), key=lambda p: p[3])] == pytest.approx(
         sorted(SCALE * p[3] for p in plain.inner_junctions()), abs=2e-9
     )
     volumes = {name: SCALE**3 * volume for name, volume in plain.volumes().items()}
-    assert other.volumes() == pytest.approx(volumes, rel=2e-3)
+    assert other.volumes() == pytest.approx(volumes, rel=5e-3)
 
 
 def _parities(region: RegionSkeleton) -> Counter[object]:
