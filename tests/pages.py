@@ -16,6 +16,7 @@ import re
 import shlex
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
+from glob import glob
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,7 @@ def run(page: str, place: Path) -> int:
 def _command(line: str) -> None:
     words = shlex.split(line, comments=True)
     if words[:1] == ["decomp"]:
+        words = [name for word in words for name in (sorted(glob(word)) or [word])]
         assert main(words[1:]) == 0, line
     else:
         assert line.startswith(NOT_RUN), line

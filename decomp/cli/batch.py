@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> None:
         if getattr(options, name) is not None:
             raise InputError(f"--{name} is for one model; a batch prints a table")
     folder = _folder(options.output)
-    targets = [folder / f"{model.stem}.{options.format}" for model in options.models]
+    targets = [folder / f"{model.stem}.{options.format or 'msh'}" for model in options.models]
     for k, target in enumerate(targets):
         if target in targets[:k]:
             first = options.models[targets.index(target)]
@@ -112,7 +112,7 @@ def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcom
     running: list[subprocess.Popen[str]] = []
     with (
         _bars(options.models, options.quiet) as tells,
-        ThreadPoolExecutor(options.jobs) as pool,
+        ThreadPoolExecutor(options.jobs or 1) as pool,
     ):
         given = zip(options.models, targets, tells, strict=True)
         waiting = [pool.submit(_one, options, *each, running) for each in given]

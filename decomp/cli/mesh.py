@@ -50,12 +50,11 @@ def register(commands: Any) -> None:
     )
     add_output(parser, SUFFIXES, " (default: the model's name with .msh, in this directory)")
     parser.add_argument(
-        "--jobs", type=_count, default=1, metavar="N", help="of several models, N at a time"
+        "--jobs", type=_count, metavar="N", help="of several models, N at a time (default 1)"
     )
     parser.add_argument(
         "--format",
         choices=[suffix[1:] for suffix in SUFFIXES],
-        default="msh",
         help="of several models: what is written (default msh)",
     )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -152,7 +151,8 @@ def run(options: argparse.Namespace) -> None:
     from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
-    if len(options.models) > 1 or any(path.is_dir() for path in options.output):
+    several = len(options.models) > 1 or options.jobs or options.format
+    if several or any(path.is_dir() for path in options.output):
         from decomp.cli import batch
 
         batch.run(options)

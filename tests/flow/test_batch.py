@@ -50,6 +50,14 @@ def test_one_model_into_a_directory(models: Path, capsys: pytest.CaptureFixture[
     assert [path.name for path in (models / "out").iterdir()] == ["a.vtu"]
 
 
+@pytest.mark.parametrize("words", [["--jobs", "2"], ["--format", "vtu"]])
+def test_a_pattern_may_name_one_model(words: list[str], models: Path) -> None:
+    """Options of batches make one: the directory need not be there yet."""
+    assert main(["mesh", "a.geo", "-o", "new", "--size", "0.4", "--quiet", *words]) == 0
+    (file,) = (models / "new").iterdir()
+    assert file.name == f"a.{words[1] if words[0] == '--format' else 'msh'}"
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
