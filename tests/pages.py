@@ -16,7 +16,6 @@ import re
 import shlex
 from collections.abc import Iterator
 from contextlib import redirect_stderr, redirect_stdout
-from glob import glob
 from pathlib import Path
 from typing import Any
 
@@ -56,10 +55,15 @@ def run(page: str, place: Path) -> int:
 def _command(line: str) -> None:
     words = shlex.split(line, comments=True)
     if words[:1] == ["decomp"]:
-        words = [name for word in words for name in (sorted(glob(word)) or [word])]
+        words = [name for word in words for name in _files(word)]
         assert main(words[1:]) == 0, line
     else:
         assert line.startswith(NOT_RUN), line
+
+
+def _files(word: str) -> list[str]:
+    """The word, or the names of the files that it is a pattern of."""
+    return sorted(map(str, Path().glob(word))) if "*" in word else [word]
 
 
 def _transcript(text: str) -> None:
