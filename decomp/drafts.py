@@ -81,18 +81,21 @@ def drafted(
     """
     along = SHARE * tolerance
     nodes = [point for region in curves for point in region.turning_feet()]
+    chords = 1
     for _ in range(LEVELS - 1):
         try:
-            return _drafted(geometry, curves, along, nodes, with_trims)
+            return _drafted(geometry, curves, along, chords, nodes, with_trims)
         except CrossingError:
-            along /= FINER
-    return _drafted(geometry, curves, along, nodes, with_trims)
+            # a curve that is straight in space is bent in a footprint
+            along, chords = along / FINER, 2 * chords
+    return _drafted(geometry, curves, along, chords, nodes, with_trims)
 
 
 def _drafted(
     geometry: Geometry,
     curves: Sequence[RegionCurves],
     along: float,
+    chords: int,
     nodes: Sequence[Array],
     with_trims: bool,
 ) -> Draft:
@@ -101,7 +104,8 @@ def _drafted(
     parts = []
     for number, region in enumerate(curves):
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
-        parts.append(RegionAssembler(geometry.index, region, vertices, points, along).assemble())
+        maker = RegionAssembler(geometry.index, region, vertices, points, along, chords)
+        parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])
     return _joined(surface, parts, with_trims)
 

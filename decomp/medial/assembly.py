@@ -10,6 +10,7 @@ import numpy as np
 from decomp.boundary.topology import Convexity
 from decomp.complex.model import Line, LineKind, Patch
 from decomp.errors import GeometryError
+from decomp.medial.curve_elements import RayCurve
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
@@ -61,6 +62,7 @@ class RegionAssembler:
         boundary: its boundary in the complex.
         before: (b, 3) all points of the complex so far, those of the boundary first.
         tolerance: of chords along curves.
+        chords: of every curve at least, also of straight ones.
     """
 
     def __init__(
@@ -70,9 +72,10 @@ class RegionAssembler:
         boundary: BoundaryVertices,
         before: Array,
         tolerance: float,
+        chords: int = 1,
     ) -> None:
         self._index, self._curves, self._boundary = index, curves, boundary
-        self._tolerance = tolerance
+        self._tolerance, self._chords = tolerance, chords
         self._before = before
         self._new: list[Array] = []
         self._size = curves.incidence.boundary.diagonal
@@ -127,7 +130,9 @@ class RegionAssembler:
 
     def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
         loop = piece.ends is None or piece.ends[0] == piece.ends[1]
-        least = max(3 if loop else 1, self._least_chords(piece))
+        # rulings of trim surfaces have no points inside
+        chords = 1 if isinstance(piece.element, RayCurve) else self._chords
+        least = max(3 if loop else 1, chords, self._least_chords(piece))
         found = sampled(piece.element, piece.points, self._tolerance, least)
         inner = [self._add(p) for p in found[1:-1]]
         if piece.ends is None:

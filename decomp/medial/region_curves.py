@@ -104,16 +104,20 @@ def region_curves(
     parts = reflexive_parts(index, incidence)
     trims, runs = trim_pieces(index, incidence, over)
     seams = seam_pieces(incidence, graph.seams)
+    loci = reflexive_pieces(parts)
     found = [
         *seams,
         *trims,
         *ray_pieces(index, incidence),
         *rim_pieces(index, incidence),
         *merging_rays(index, incidence),
-        *reflexive_pieces(parts),
+        *loci,
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
-    turns = [run.points[k] for run in runs for k in (0, -1)]
+    # loci end exactly; centres that rest on one tell its end to half the digits
+    open_ = [piece for piece in loci if (piece.points[0] != piece.points[-1]).any()]
+    turns = [piece.points[k] for piece in open_ for k in (0, -1)]
+    turns += [run.points[k] for run in runs for k in (0, -1)]
     touches = touching_points(incidence, seams)
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))

@@ -63,7 +63,10 @@ def _pair(a: int, b: int) -> Pair:
 def _tangent(piece: CurvePiece) -> Array:
     k = len(piece.points) // 2
     along = piece.points[k + 1] - piece.points[k - 1]
-    return np.asarray(along / norm(along))
+    length = float(norm(along))
+    if not length > 0:
+        raise GeometryError(f"a curve turns back on itself near {place(piece.points[k])}")
+    return np.asarray(along / length)
 
 
 def _cyclic(piece: CurvePiece) -> tuple[Pair, ...]:

@@ -8,7 +8,10 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.carriers import Sphere
+from decomp.carriers.axial import axial_split
 from decomp.complex.domains import Domain, domain_of
+from decomp.curves.circle import Circle
+from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.polar import around_locus
@@ -17,13 +20,15 @@ from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.unrolled import unrolled
 from decomp.sites.site import SiteKind
 from decomp.tracing.loci import locus_gap
-from decomp.vectors import Array, norm, place
+from decomp.vectors import Array, cross, dot, norm, place
 
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 FLAT = 1e-10
 MERGED = 1e-9
 """Points of a footprint nearer to each other than this part of the size have merged."""
 AT_LOCUS = 1e-7
+ALONG = 2049
+"""Samples of an edge between which lengths along it are read off."""
 WAYS = 2000
 """Directions from a sphere's centre among which a pole is looked for."""
 
@@ -73,9 +78,52 @@ class SheetDomains:
         uv = domain.to_plane(feet[:, column], points)
         domain = around_locus(domain, uv, self._locus_gap(own, points) <= AT_LOCUS * self._size)
         uv = domain.to_plane(feet[:, column], points)
-        if flat is not None and len(cKDTree(uv).query_pairs(MERGED * self._size)):
+        if not self._merged(uv) and not self._hidden(pair[column], points, feet[:, column]):
+            return Drawing(uv, domain, column)
+        if flat is not None:
             return Drawing(flat, None, 0)
-        return Drawing(uv, domain, column)
+        return self.beside(pair, points, feet) or Drawing(uv, domain, column)
+
+    def beside(self, pair: tuple[int, int], points: Array, feet: Array) -> Drawing | None:
+        """A drawing by lengths along an edge and distances from it, None if that merges points.
+
+        So sheets can be drawn of which a whole line has one foot and one direction from it: below a
+        vertex at which two reentrant edges of one round face meet.
+        """
+        column = self._better(pair, points)
+        for k in (column, 1 - column):
+            uv = self._along_and_away(pair[k], points, feet[:, k])
+            if uv is not None and not self._merged(uv):
+                return Drawing(uv, None, k)
+        return None
+
+    def _merged(self, uv: Array) -> bool:
+        return bool(cKDTree(uv).query_pairs(MERGED * self._size))
+
+    def _hidden(self, site: int, points: Array, feet: Array) -> bool:
+        """Whether a point on an edge, which no direction tells from it, is a foot of others."""
+        if self._incidence.sites[site].kind is not SiteKind.EDGE:
+            return False
+        on = norm(points - feet) <= MERGED * self._size
+        if not on.any() or on.all():
+            return False
+        gaps = cKDTree(feet[on]).query(feet[~on])[0]
+        return bool(gaps.min() <= MERGED * self._size)
+
+    def _along_and_away(self, site: int, points: Array, feet: Array) -> Array | None:
+        """Lengths along an open edge and distances from it, as plane coordinates (k, 2)."""
+        it = self._incidence.sites[site]
+        if it.kind is not SiteKind.EDGE or self._boundary.edges[it.index].closed:
+            return None
+        edge = self._boundary.edges[it.index]
+        samples = edge.curve.point(edge.curve.wrapped(np.linspace(edge.start, edge.end, ALONG)))
+        lengths = np.append(0.0, np.cumsum(norm(np.diff(samples, axis=0))))
+        nearest = cKDTree(samples).query(feet)[1]
+        before = np.clip(nearest, 1, ALONG - 2)
+        way = samples[before + 1] - samples[before - 1]
+        size = norm(way)
+        part = dot(feet - samples[before], way) / size
+        return np.stack([lengths[before] + part, norm(points - feet)], axis=1)
 
     def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
         """Plane coordinates of points that all lie in a plane."""
@@ -89,7 +137,9 @@ class SheetDomains:
         it = self._incidence.sites[site]
         if it.kind is SiteKind.FACE:
             return RANKS[self._boundary.carriers[self._boundary.faces[it.index].carrier].kind]
-        return 6 if it.kind is SiteKind.EDGE else 7
+        if it.kind is SiteKind.EDGE:
+            return 6 if isinstance(self._boundary.edges[it.index].curve, Line) else 7
+        return 8
 
     def _better(self, pair: tuple[int, int], points: Array) -> int:
         """Which site's footprint to use: simple carriers first, none whose locus is reached."""
@@ -101,7 +151,12 @@ class SheetDomains:
         return min((0, 1), key=cost)
 
     def _locus_gap(self, site: int, points: Array) -> Array:
-        """Distance (k,) of points from a site's reflexive locus."""
+        """Distance (k,) of points from a site's reflexive locus, or from a round edge's axis."""
+        it = self._incidence.sites[site]
+        if it.kind is SiteKind.EDGE:
+            curve = self._boundary.edges[it.index].curve
+            if isinstance(curve, Circle):
+                return axial_split(points, curve.centre, cross(curve.x, curve.y))[1]
         return locus_gap(self._boundary, self._incidence.sites, (site,), points)
 
     def _domain(self, site: int, points: Array, feet: Array, surface: SheetSurface) -> Domain:

@@ -23,9 +23,9 @@ from decomp.complex.planar import (
     triangulate,
 )
 from decomp.errors import GeometryError
-from decomp.medial.component_votes import kept_components
+from decomp.medial.component_votes import MissingCurveError, kept_components
 from decomp.medial.incidence import Incidence
-from decomp.medial.sheet_domains import SheetDomains
+from decomp.medial.sheet_domains import Drawing, SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
@@ -49,6 +49,10 @@ class CrossingError(GeometryError):
     def __init__(self, message: str, segments: Ints) -> None:
         super().__init__(message)
         self.segments = segments
+
+
+class UnevenError(GeometryError):
+    """A sheet's footprint is too uneven for it to be drawn there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +145,25 @@ class SheetMaker:
         surface = SheetSurface(self._incidence, pair, points, feet)
         drawing = self._domains.drawn(pair, points, feet, surface)
         local = np.searchsorted(used, segments)
-        draft = _Draft(pair, used, points, drawing.uv, local, drawing.domain, drawing.column)
+        try:
+            return self._drawn(pair, used, points, local, drawing, surface)
+        except (UnevenError, MissingCurveError):
+            beside = self._domains.beside(pair, points, feet)
+            if beside is None:
+                raise
+        return self._drawn(pair, used, points, local, beside, surface)
+
+    def _drawn(
+        self,
+        pair: tuple[int, int],
+        used: Ints,
+        points: Array,
+        segments: Ints,
+        drawing: Drawing,
+        surface: SheetSurface,
+    ) -> list[SheetPart]:
+        """The sheets between their borders as they are drawn."""
+        draft = _Draft(pair, used, points, drawing.uv, segments, drawing.domain, drawing.column)
         self._check_crossings(draft)
         found, keep = self._triangulated(draft, surface)
         return self._parts(draft, surface, found, keep)
@@ -169,7 +191,7 @@ class SheetMaker:
             if draft.domain is None or not self._add_where_coarse(draft, found, keep):
                 return found, keep
         names = " and ".join(self._incidence.sites[s].name for s in draft.pair)
-        raise GeometryError(
+        raise UnevenError(
             f"the sheet between {names} near {place(draft.points[0])} cannot be triangulated"
         )
 

@@ -33,6 +33,7 @@ NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
 STEPS = 40
+LEAST_SLOPE = 1e-12
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near
 measured by the ball too: close to a convex vertex balls are small."""
@@ -319,12 +320,13 @@ def solve_radius(
     for _ in range(STEPS):
         field = site_fields(incidence.boundary, incidence.sites, which, q + r[:, None] * n, near)
         near = field.foot
-        step = (field.distance - r) / (1 - dot(field.gradient, n))
+        # where both feet are one the distance does not change against the radius
+        step = (field.distance - r) / np.maximum(1 - dot(field.gradient, n), LEAST_SLOPE)
         step = np.clip(step, -0.5 * np.abs(r) - 1e-12 * size, 0.5 * np.abs(r) + 1e-12 * size)
         r = r + step
         if np.abs(step).max(initial=0.0) <= 4e-16 * size:
             break
-    if np.abs(step).max(initial=0.0) > 1e-12 * size:
+    if not np.abs(step).max(initial=0.0) <= 1e-12 * size:
         bad = int(np.argmax(np.abs(step)))
         raise GeometryError(f"the maximal ball at the boundary point {place(q[bad])} is not found")
     return r

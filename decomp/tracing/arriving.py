@@ -45,9 +45,9 @@ def arrival(
     gaps = np.array([gap(float(length)) for length in lengths])
     if not (np.abs(gaps - steps * gaps[0]) <= BENT * np.abs(gaps)).all():
         return None
-    return float(_weights_at_zero(gaps) @ lengths)
+    return float(lagrange_weights(gaps, 0.0) @ lengths)
 
 
-def _weights_at_zero(at: Array) -> Array:
-    """Lagrange's weights at 0 of values given `at` other places."""
-    return np.array([np.prod([b / (b - a) for b in at if b != a]) for a in at])
+def lagrange_weights(known: Array, at: float) -> Array:
+    """The weights (k,) of values known at k different places, for the value at another."""
+    return np.array([np.prod([(at - b) / (a - b) for b in known if b != a]) for a in known])

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from decomp.tracing.arriving import lagrange_weights
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
@@ -120,8 +121,7 @@ def _end(states: Sequence[State], pair: tuple[int, int]) -> State:
     """Points of a seam continued to where a gap vanishes."""
     one, other = pair
     x = np.array([_gap(s, pair) ** 2 for s in states])
-    # Lagrange weights at gap 0
-    weights = np.array([np.prod([z / (z - y) for z in x if z != y]) for y in x])
+    weights = lagrange_weights(x, 0.0)
 
     def at_end(values: Sequence[Array]) -> Array:
         return np.asarray(np.tensordot(weights, np.array(values), axes=1))

@@ -38,6 +38,8 @@ GROWTH = 1.6
 TURN = 0.9945
 """Cosine of the largest turn in a step, 6 degrees."""
 RESIDUAL = 1e-12
+LEAST_PROGRESS = 1e-6
+"""A step that fails past this part of the size is tried again, shorter."""
 CLOSE = 1e-15
 """Changes are narrowed down to this part of the size."""
 VANISHED = 1e-7
@@ -250,7 +252,11 @@ def follow(
                 if low > 0.0 and advance(table, which, track, base, last + 1, low, size, True):
                     last += 1
                 if failed:
-                    return last + 1, STUCK, -1
+                    # long steps can lead across an axis, where feet jump
+                    if not low > LEAST_PROGRESS * size:
+                        return last + 1, STUCK, -1
+                    narrowing, failed, step = False, False, low / 4
+                    continue
                 if not advance(table, which, track, base, last + 1, high, size, True):
                     return last + 1, STUCK, -1
                 return last + 1, kind, contact

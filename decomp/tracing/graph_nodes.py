@@ -9,10 +9,11 @@ from itertools import product
 import numpy as np
 
 from decomp.errors import GeometryError
+from decomp.tracing.arcs import Arcs
 from decomp.tracing.departures import departures
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.known_seams import KnownSeams
-from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.local import SeamRay
 from decomp.tracing.seam_graph_model import Node
 from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import State
@@ -44,6 +45,7 @@ class GraphNodes:
 
     def __init__(self, points: SeamPoints, seams: KnownSeams) -> None:
         self._points, self._seams, self._size = points, seams, points.size
+        self._arcs = Arcs(points.boundary, points.index.sites, points.queries)
         self.nodes: list[Node] = []
         self.open: list[tuple[int, int]] = []
         self.starts: dict[tuple[int, int], State] = {}
@@ -83,7 +85,8 @@ class GraphNodes:
             raise GeometryError(
                 f"the junction at the end of a seam near {place(last.point)} is lost"
             )
-        return self.at(point)
+        on_axis = self._arcs.on_axis(last, intruder, point)
+        return self.at(point if on_axis is None else on_axis)
 
     def at(self, point: Array, ending: bool = False) -> int:
         """The node at a point, a new one unless it is known.
@@ -102,7 +105,7 @@ class GraphNodes:
             for k, sites in enumerate(touching.sites)
             if ending and self._points.on_locus(sites, point)
         }
-        for ray in seam_rays(touching.gradients):
+        for ray in self._arcs.rays(touching, point):
             if arcs & set(ray.contacts):
                 continue
             for contacts, state in departures(self._points, point, touching, ray):

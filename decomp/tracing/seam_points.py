@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.carriers import Carrier
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
+from decomp.sites.site import SiteKind
 from decomp.tracing.contacts import ContactFinder
 from decomp.tracing.following import settle
 from decomp.tracing.loci import on_locus
@@ -22,6 +25,8 @@ SLACK = 1e-9
 """Contacts whose distances differ by less than this part of the size are looked at as equal."""
 LOCUS = 1e-7
 """Points nearer to a reflexive locus than this part of the size lie on it."""
+NEAR_LOCUS = 0.02
+"""Balls whose centres are nearer to a locus than this part of their radius may be coming to it."""
 TURNS = 6
 """So often sites are named anew where feet are shared by several."""
 
@@ -83,6 +88,28 @@ class SeamPoints:
         """The sites that are touched from a point (3,) at feet (m, 3), -1 where none is."""
         found = self.queries.nearest(point + TOWARDS * (feet - point))
         return tuple(int(k) for k in found.site)
+
+    def loci_near(self, state: State) -> list[Callable[[Array], float]]:
+        """Distances from the loci that are near a ball, of faces that its edges bound."""
+        bounded = {
+            face
+            for site in state.sites
+            if self.index.sites[site].kind is SiteKind.EDGE
+            for face in self.boundary.edges[self.index.sites[site].index].faces
+        }
+        found: list[Callable[[Array], float]] = []
+        for number in sorted(bounded):
+            face = self.boundary.faces[number]
+            carrier = self.boundary.carriers[face.carrier]
+
+            def off(point: Array, carrier: Carrier = carrier, outward: int = face.outward) -> float:
+                return float(reflexive_gap(carrier, outward, point[None])[0])
+
+            depth = abs(float(carrier.signed_distance(state.point)))
+            near = NEAR_LOCUS * state.radius
+            if off(state.point) <= near and abs(depth - state.radius) <= near:
+                found.append(off)
+        return found
 
     def on_locus(self, sites: Sequence[int], point: Array) -> bool:
         """Whether a point is a centre of curvature of one of the faces among some sites."""

@@ -7,18 +7,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.errors import GeometryError
 from decomp.tracing.arriving import arrival
 from decomp.tracing.fins import fin as merging_feet
 from decomp.tracing.following import advance
+from decomp.tracing.landing import landing
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.tracing.stretch import Stretch
 from decomp.tracing.vertex_fins import at_vertex
 from decomp.tracing.walls import ALONG, CROSSED, JOINS, MISSED, Wall, Walls, cross, gap_ahead
-from decomp.vectors import Array, norm, place
+from decomp.vectors import Array, norm
 
 FOOT_ON_EDGE = 1e-9
+AT_VERTEX = 1e-4
 NEAR_WALL = 1e-3
 """Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
 
@@ -30,17 +31,17 @@ class SeamStops:
         self._points, self._size = points, points.size
         self._walls = Walls(points.boundary, points.index.sites, points.table)
 
-    def crossing(self, stretch: Stretch, count: int, contact: int) -> tuple[int, State]:
+    def crossing(self, stretch: Stretch, count: int, contact: int) -> tuple[int, State] | None:
         """Where a contact's foot leaves its site near the last of `count` rows.
 
         Returns:
-            The number of rows up to there, and the point; it is put into the last of them.
+            The number of rows up to there, and the point; it is put into the last of them. None if
+            it is not found.
         """
         beyond = stretch.state(count)
         found = self._wall_near(stretch, count, stretch.sites[contact], beyond.feet[contact])
         if found is None:
-            near = place(stretch.track.points[count - 1])
-            raise GeometryError(f"a seam cannot be followed past the trim near {near}")
+            return None
         base, state, spot = found
         if float(norm(state.feet[contact] - spot)) <= FOOT_ON_EDGE * self._size:
             state.feet[contact] = spot
@@ -102,6 +103,42 @@ class SeamStops:
     def _exactly(self, state: State) -> State:
         """A crossing with a wall, exactly also where two feet run together at a vertex there."""
         return at_vertex(self._points, state, nearest_pair(state)) or state
+
+    def vertex(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
+        """Where two feet run together at a vertex, close to the last of `count` rows.
+
+        None if they do not.
+        """
+        last = stretch.state(count - 1)
+        end = at_vertex(self._points, last, nearest_pair(last), AT_VERTEX)
+        return None if end is None else (stretch.cut(count - 1, end, self._size), end)
+
+    def landing(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
+        """Where a seam ends on the reflexive locus of a face that its edges bound.
+
+        None if it does not, close to the last of `count` rows.
+        """
+        spare, last = count + 1, stretch.state(count - 1)
+
+        def ahead(length: float) -> State | None:
+            rows = stretch.which, stretch.track, count - 1, spare
+            if not advance(self._points.table, *rows, length, self._size, False):
+                return None
+            return stretch.state(spare)
+
+        def settle(state: State) -> State | None:
+            return self._points.state(state.sites, state.point, state.feet, state.tangent)
+
+        for off in self._points.loci_near(last):
+            found = landing(ahead, settle, off, last)
+            if found is not None:
+                between, end = found
+                kept = count
+                for state in (*between, end):
+                    stretch.put(kept, state)
+                    kept += 1
+                return kept, end
+        return None
 
     def merging(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where two contacts run together inside a site, near the last of `count` rows.

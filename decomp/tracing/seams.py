@@ -102,6 +102,10 @@ class SeamTracer:
                 if found.region[0] != points.region:
                     raise GeometryError(f"a seam leaves the region at {place(last.point)}")
                 contact = self._neighbour(here.sites, beyond, intruder, found.foot[0])
+                landed = self._stops.landing(stretch, count) if contact < 0 else None
+                if landed is not None:
+                    runs.append(stretch.run(landed[0]))
+                    return Traced(tuple(runs), landed[1], SeamEnd.FIN, -1, nothing)
                 if contact < 0:
                     runs.append(stretch.run(count))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
@@ -109,7 +113,15 @@ class SeamTracer:
                 kept, at = self._stops.joining(stretch, count)
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
-            kept, at = self._stops.crossing(stretch, count, contact)
+            crossed = self._stops.crossing(stretch, count, contact)
+            if crossed is None:
+                crossed = self._stops.vertex(stretch, count) or self._stops.landing(stretch, count)
+                if crossed is None:
+                    near = place(stretch.track.points[count - 1])
+                    raise GeometryError(f"a seam cannot be followed past the trim near {near}")
+                runs.append(stretch.run(crossed[0]))
+                return Traced(tuple(runs), crossed[1], SeamEnd.FIN, -1, nothing)
+            kept, at = crossed
             runs.append(stretch.run(kept))
             if _merged(at, MET):
                 return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)

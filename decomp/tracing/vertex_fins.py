@@ -20,26 +20,27 @@ from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
 
 NEAR = 1e-6
-"""The feet are nearer to the vertex, and the place nearer to the known point, than this part of the
-size."""
 STEPS = 20
 ACROSS = 1e-3
 """Conditions on the line that differ less than this are one."""
 
 
-def at_vertex(points: SeamPoints, state: State, pair: tuple[int, int]) -> State | None:
+def at_vertex(
+    points: SeamPoints, state: State, pair: tuple[int, int], within: float = NEAR
+) -> State | None:
     """The same end of a seam, exactly.
 
     Args:
         points: of the seam's region.
         state: the end, as far as it is known.
         pair: the contacts that run together.
+        within: how far off, as a part of the size, the feet may be from the vertex, and the end.
 
     Returns:
         None if they do not meet at a vertex, or if their sites do not tell the line of normals.
     """
     vertices = np.array([v.point for v in points.boundary.vertices]).reshape(-1, 3)
-    near = NEAR * points.size
+    near = within * points.size
     if not len(vertices):
         return None
     gaps = norm(vertices[:, None] - state.feet[list(pair)]).max(axis=1)

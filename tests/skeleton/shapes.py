@@ -27,6 +27,9 @@ def walled() -> Solid:
     return Block((0, 0, 0), (4, 3, 2), name="block") - slot
 
 
+Point = tuple[float, float, float]
+
+
 def branched(branch: Solid) -> Solid:
     """A pipe along x with something that leaves it."""
     return Cylinder((-5, 0, 0), (5, 0, 0), 1, name="run") | branch
@@ -56,6 +59,13 @@ def grooved() -> Solid:
     return Cylinder((0, 0, 0), (0, 0, 4), 1, name="shaft") - ring
 
 
+def with_boss(base: float, height: float, start: Point, end: Point, radius: float) -> Solid:
+    """A block with a round boss that breaks through its edges."""
+    return Block((0, 0, 0), (4, base, height), name="base") | Cylinder(
+        start, end, radius, name="boss"
+    )
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -73,5 +83,9 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "wide offset tee": lambda: offset_tee(0.2, 0.7),
     "bulge": bulge,
     "spoke": spoke,
+    "ridge": lambda: with_boss(3, 3, (2.2, -0.5, 2.4), (2.2, 3.2, 2.4), 1),
+    "boss on a wall": lambda: with_boss(3, 2.2, (0.1, 1.5, -0.5), (0.1, 1.5, 1.8), 0.5),
+    "boss on a corner": lambda: with_boss(2.5, 4, (1.3, 2.3, 2.4), (1.3, 2.3, 5), 0.5),
+    "bar in a wall": lambda: with_boss(3, 2.2, (-1, 1.2, 0.3), (5, 1.2, 0.3), 0.6),
     "grooved shaft": grooved,
 }

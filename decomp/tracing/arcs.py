@@ -1,0 +1,188 @@
+"""The seams that leave a point of a reflexive axis or spine, from which whole arcs are as near.
+
+There a ball touches a face along an arc of a circle about the axis. The hull of the contacts'
+gradients, see `local`, then has no facets with points inside such an arc as corners, but the flat
+one that the circle spans: along its normal goes the axis, which is no seam. So seams leave along
+facets whose corners are ends of arcs and single contacts, if the arcs themselves lie inside.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import brentq  # type: ignore[import-untyped]
+
+from decomp.boundary.topology import Face, RegionBoundary
+from decomp.carriers import Carrier, Cone, Cylinder, Torus
+from decomp.carriers.reflexive import reflexive_gap
+from decomp.sites.site import Site, SiteKind
+from decomp.tracing.contacts import Contacts
+from decomp.tracing.fields import site_fields
+from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.probing import TOWARDS
+from decomp.tracing.queries import RegionQueries
+from decomp.tracing.seam_states import State
+from decomp.vectors import Array, cross, norm
+
+ON_LOCUS = 1e-7
+"""Points nearer to a locus than this part of the size are on it, and radii are as exact."""
+TURNS = 180
+"""Points of a circle at which it is seen where it is on the boundary."""
+ON_BOUNDARY = 1e-10
+NEAR = 1e-5
+"""A junction is looked for on a locus that is nearer than this part of the size."""
+INSIDE = 1e-6
+"""An arc lies inside a facet's plane unless its gradients leave it by more than this."""
+
+
+class Arcs:
+    """The arcs along which balls of one region touch its faces.
+
+    Args:
+        boundary: of the region.
+        sites: all sites.
+        queries: of the region.
+    """
+
+    def __init__(
+        self, boundary: RegionBoundary, sites: tuple[Site, ...], queries: RegionQueries
+    ) -> None:
+        self._boundary, self._sites, self._queries = boundary, sites, queries
+        self._size = boundary.diagonal
+        self._round = [
+            (k, face)
+            for k, face in enumerate(boundary.faces)
+            if isinstance(boundary.carriers[face.carrier], (Cylinder, Cone, Torus))
+        ]
+
+    def rays(self, touching: Contacts, point: Array) -> list[SeamRay]:
+        """The seams that leave a point, of arcs and of single contacts."""
+        faces = {k for k, face in self._round if self._osculates(face, touching.radius, point)}
+        if not faces:
+            return seam_rays(touching.gradients)
+        on = [self._is_on(sites, faces) for sites in touching.sites]
+        inner = [self._is_inside(sites, faces) for sites in touching.sites]
+        corners = np.flatnonzero(~np.array(inner))
+        if len(corners) < 3:
+            return []
+        arcs = self._arcs(touching, point, faces, on)
+        found = []
+        for ray in seam_rays(touching.gradients[corners]):
+            chosen = tuple(int(corners[k]) for k in ray.contacts)
+            beyond = arcs @ ray.direction < ray.slope - INSIDE
+            if not all(on[k] for k in chosen) and not beyond.any():
+                found.append(replace(ray, contacts=chosen))
+        return found
+
+    def on_axis(self, last: State, intruder: int, near: Array) -> Array | None:
+        """The point where a seam meets the locus of a face that bounds some of its edges.
+
+        There the seam's equations lose rank. But on the locus edges of the face are as far as the
+        face is, so that the others alone tell the place on it.
+
+        Args:
+            last: of the seam.
+            intruder: the face.
+            near: the point (3,), roughly.
+
+        Returns:
+            None if it is no such point.
+        """
+        face = dict(self._round).get(self._face_of(intruder))
+        others = [k for k in last.sites if self._face_of(intruder) not in self._faces_at(k)]
+        if face is None or not others or len(others) == len(last.sites):
+            return None
+        carrier = self._boundary.carriers[face.carrier]
+        if float(reflexive_gap(carrier, face.outward, near[None])[0]) > NEAR * self._size:
+            return None
+        axis, centre = _axis(carrier, near), _on_axis(carrier, near)
+        if centre is None:
+            return None
+        foot = last.feet[last.sites.index(others[0])]
+
+        def gap(way: float) -> float:
+            at = centre + way * axis
+            field = site_fields(
+                self._boundary, self._sites, np.array(others[:1]), at[None], foot[None]
+            )
+            return float(field.distance[0]) - abs(float(carrier.signed_distance(at)))
+
+        step = NEAR * self._size
+        if gap(-step) * gap(step) > 0:
+            return None
+        return np.asarray(centre + brentq(gap, -step, step, xtol=1e-16 * self._size) * axis)
+
+    def _face_of(self, number: int) -> int:
+        site = self._sites[number]
+        return site.index if site.kind is SiteKind.FACE else -1
+
+    def _osculates(self, face: Face, radius: float, point: Array) -> bool:
+        carrier = self._boundary.carriers[face.carrier]
+        gap = float(reflexive_gap(carrier, face.outward, point[None])[0])
+        depth = abs(float(carrier.signed_distance(point)))
+        return gap <= ON_LOCUS * self._size and abs(depth - radius) <= ON_LOCUS * self._size
+
+    def _is_on(self, sites: tuple[int, ...], faces: set[int]) -> bool:
+        """Whether a contact is a point of an arc, or its end."""
+        return any(faces & self._faces_at(site) for site in sites)
+
+    def _is_inside(self, sites: tuple[int, ...], faces: set[int]) -> bool:
+        """Whether a contact is a point of an arc, and not its end."""
+        own = [self._sites[k] for k in sites]
+        return all(s.kind is SiteKind.FACE and s.index in faces for s in own)
+
+    def _faces_at(self, number: int) -> set[int]:
+        site = self._sites[number]
+        match site.kind:
+            case SiteKind.FACE:
+                return {site.index}
+            case SiteKind.EDGE:
+                return set(self._boundary.edges[site.index].faces)
+            case SiteKind.VERTEX:
+                return set(self._boundary.vertices[site.index].faces)
+
+    def _arcs(self, touching: Contacts, point: Array, faces: set[int], on: list[bool]) -> Array:
+        """Gradients (k, 3) of points of the arcs."""
+        found = []
+        for number in faces:
+            carrier = self._boundary.carriers[self._boundary.faces[number].carrier]
+            off = np.abs(carrier.signed_distance(touching.feet))
+            known = np.flatnonzero(np.array(on) & (off <= ON_LOCUS * self._size))
+            if not len(known):
+                continue
+            start, axis = touching.feet[known[0]] - point, _axis(carrier, point)
+            reach = _turned(start, axis)
+            seen = self._queries.nearest(point + TOWARDS * reach).distance
+            true = np.abs(seen - (1 - TOWARDS) * touching.radius) <= ON_BOUNDARY * self._size
+            found.append(-reach[true] / touching.radius)
+        return np.concatenate([np.empty((0, 3)), *found])
+
+
+def _turned(start: Array, axis: Array) -> Array:
+    """A vector (3,) turned about a unit vector by all parts (k, 3) of a turn."""
+    along = float(start @ axis) * axis
+    angles = 2 * np.pi * np.arange(TURNS)[:, None] / TURNS
+    return np.asarray(
+        along + np.cos(angles) * (start - along) + np.sin(angles) * cross(axis, start)
+    )
+
+
+def _axis(carrier: Carrier, point: Array) -> Array:
+    """The direction about which the feet of a point of a locus are turned."""
+    assert isinstance(carrier, (Cylinder, Cone, Torus))
+    if isinstance(carrier, Torus):
+        away = point - carrier.centre
+        away = away - float(away @ carrier.axis) * carrier.axis
+        if float(norm(away)) > 0.5 * carrier.major:
+            tangent = cross(carrier.axis, away)
+            return np.asarray(tangent / norm(tangent))
+    return carrier.axis
+
+
+def _on_axis(carrier: Carrier, point: Array) -> Array | None:
+    """The foot of a point on a straight locus, None if the carrier's is none."""
+    if not isinstance(carrier, (Cylinder, Cone)):
+        return None
+    start = carrier.point if isinstance(carrier, Cylinder) else carrier.apex
+    return np.asarray(start + float((point - start) @ carrier.axis) * carrier.axis)

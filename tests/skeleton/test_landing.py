@@ -1,0 +1,84 @@
+"""Seams that come down to a reflexive locus, and what leaves points of a reflexive axis."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.tracing.arcs import Arcs
+from decomp.tracing.landing import landing
+from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_states import State
+from decomp.vectors import Array
+from tests.skeleton.computed import region_of
+from tests.skeleton.shapes import SHAPES
+
+END = 0.3
+"""Of a seam x = t, z = (t - END)^2 / 2, whose locus is the x axis."""
+
+
+def state(t: float) -> State:
+    w = t - END
+    point, tangent = np.array([t, 0.0, w * w / 2]), np.array([1.0, 0.0, w])
+    feet = point + np.array([[0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]])
+    return State(point, 1.0, (0, 1, 2), feet, tangent / np.linalg.norm(tangent), 0.0)
+
+
+def off(point: Array) -> float:
+    return float(np.hypot(point[1], point[2]))
+
+
+def test_the_end_of_a_parabola_is_read_off() -> None:
+    found = landing(
+        lambda length: state(0.25 + length), lambda near: state(near.point[0]), off, state(0.25)
+    )
+    assert found is not None
+    between, end = found
+    assert end.point == pytest.approx([END, 0, 0], abs=1e-12)
+    assert end.feet[0] == pytest.approx([END, 1, 0], abs=1e-12)
+    along = [s.point[0] for s in between]
+    assert along == sorted(along)
+    assert along[0] > 0.25
+    assert along[-1] < END
+
+
+def test_a_seam_that_crosses_a_locus_does_not_end_there() -> None:
+    def crossing(t: float) -> State:
+        return replace(state(END), point=np.array([t, 0.0, 0.5 * (END - t)]))
+
+    assert (
+        landing(
+            lambda length: crossing(0.25 + length),
+            lambda near: crossing(near.point[0]),
+            off,
+            crossing(0.25),
+        )
+        is None
+    )
+
+
+def test_what_leaves_the_end_of_an_axis() -> None:
+    """On the ridge's axis, where its end is as far as its side: one seam, between both edges."""
+    geometry = decomp.Geometry(SHAPES["ridge"]())
+    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    place = np.array([2.2, 2.2, 2.4])
+    touching = points.contacts.at(place, SLACK * points.size)
+    arcs = Arcs(geometry.regions[0], geometry.index.sites, points.queries)
+    (ray,) = arcs.rays(touching, place)
+    names = {geometry.index.sites[touching.sites[k][0]].name for k in ray.contacts}
+    assert names == {"base.zmax@2|boss.side", "base.zmax|boss.side", "boss.top"}
+    assert ray.direction[2] < 0
+
+
+def test_the_sheet_between_the_edges_of_a_ridge_ends_on_its_axis() -> None:
+    ridge = region_of("ridge")
+    edges = "base.zmax@2|boss.side", "base.zmax|boss.side"
+    on = ridge.on_sheets(*edges)
+    assert on[:, 0] == pytest.approx(2.2, abs=1e-12)
+    assert on[:, 2].max() == pytest.approx(2.4, abs=1e-12)
+    top = on[on[:, 2] > 2.4 - 1e-9]
+    assert top[:, 1].min() == pytest.approx(0.5, abs=1e-9)
+    assert top[:, 1].max() == pytest.approx(2.2, abs=1e-9)
