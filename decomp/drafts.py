@@ -79,32 +79,30 @@ def drafted(
         MissingCurveError: there are more curves than are known.
         CrossingError, GeometryError: a sheet cannot be triangulated.
     """
-    along = SHARE * tolerance
+    along, chords = SHARE * tolerance, 1
     nodes = [point for region in curves for point in region.turning_feet()]
-    chords = 1
     for _ in range(LEVELS - 1):
         try:
-            return _drafted(geometry, curves, along, chords, nodes, with_trims)
+            return _drafted(geometry, curves, (along, chords, False), nodes, with_trims)
         except CrossingError:
             # a curve that is straight in space is bent in a footprint
             along, chords = along / FINER, 2 * chords
-    return _drafted(geometry, curves, along, chords, nodes, with_trims)
+    return _drafted(geometry, curves, (along, chords, True), nodes, with_trims)
 
 
 def _drafted(
     geometry: Geometry,
     curves: Sequence[RegionCurves],
-    along: float,
-    chords: int,
+    sampling: tuple[float, int, bool],
     nodes: Sequence[Array],
     with_trims: bool,
 ) -> Draft:
-    surface = boundary_mesh(geometry, along, nodes=nodes)
+    surface = boundary_mesh(geometry, sampling[0], nodes=nodes)
     points = surface.points
     parts = []
     for number, region in enumerate(curves):
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
-        maker = RegionAssembler(geometry.index, region, vertices, points, along, chords)
+        maker = RegionAssembler(geometry.index, region, vertices, points, *sampling)
         parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])
     return _joined(surface, parts, with_trims)

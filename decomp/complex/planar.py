@@ -144,9 +144,11 @@ def _periodic(points: Array, segments: Ints, period: Period, around: int) -> Tri
     keep = copy[rows, np.argmin(vertex, axis=1)] == middle
     coordinates = laid.reshape(-1, 2)[triangles[keep]]
     vertex = vertex[keep]
-    fixed = np.unique(np.sort(fixed % len(home), axis=1), axis=0)
-
-    part, _ = _parts(vertex, fixed, len(home))
+    ends = np.stack([triangles[keep], np.roll(triangles[keep], -1, axis=1)], axis=-1)
+    turns_of = [_turned(edges, shifts, len(home)) for edges in (ends, fixed)]
+    fixed = fixed % len(home)
+    part, _ = _parts(vertex, fixed, len(home), *turns_of)
+    fixed = np.unique(np.sort(fixed, axis=1), axis=0)
     outer = np.unique(part[(vertex >= n).any(axis=1)])
     inner = ~np.isin(part, outer)
     vertex, part, coordinates = vertex[inner], part[inner], coordinates[inner]
@@ -234,11 +236,36 @@ def _delaunay(points: Array, segments: Ints) -> tuple[Ints, Ints]:
     return triangles, fixed.reshape(-1, 2)
 
 
-def _parts(triangles: Ints, fixed: Ints, n: int) -> tuple[Ints, Ints]:
-    """For each triangle its part between constraints; and the parts with a free border edge."""
+def _turned(ends: Ints, shifts: Ints, n: int) -> Ints:
+    """Numbers (...) that tell how many periods lie between edges' ends (..., 2).
+
+    The ends are in copies of n points; it is counted from the end with the lower number.
+    """
+    low = ends[..., :1] % n <= ends[..., 1:] % n
+    way = np.where(low, 1, -1)
+    apart = way * (shifts[ends[..., 1] // n] - shifts[ends[..., 0] // n])
+    most = 2 * int(np.abs(shifts).max()) + 1
+    return np.asarray((apart[..., 0] + most) * (2 * most + 1) + apart[..., 1] + most)
+
+
+def _parts(
+    triangles: Ints,
+    fixed: Ints,
+    n: int,
+    turned: Ints | None = None,
+    fixed_turned: Ints | None = None,
+) -> tuple[Ints, Ints]:
+    """For each triangle its part between constraints; and the parts with a free border edge.
+
+    Two edges between the same points may go different ways around a period; numbers for the edges
+    (m, 3) of triangles, each from its corner on, and for those fixed tell them apart.
+    """
     ends = np.roll(triangles, -1, axis=1)
     keys = np.minimum(triangles, ends) * n + np.maximum(triangles, ends)
     walls = fixed.min(axis=1) * n + fixed.max(axis=1)
+    if turned is not None and fixed_turned is not None:
+        most = int(max(turned.max(initial=0), fixed_turned.max(initial=0))) + 1
+        keys, walls = keys * most + turned, walls * most + fixed_turned
     edges, edge, count = np.unique(keys, return_inverse=True, return_counts=True)
     edge = edge.reshape(keys.shape)
     open_edge: Bools = ~np.isin(edges, walls)

@@ -63,6 +63,7 @@ class RegionAssembler:
         before: (b, 3) all points of the complex so far, those of the boundary first.
         tolerance: of chords along curves.
         chords: of every curve at least, also of straight ones.
+        finest: whether there will be no finer ones.
     """
 
     def __init__(
@@ -73,9 +74,10 @@ class RegionAssembler:
         before: Array,
         tolerance: float,
         chords: int = 1,
+        finest: bool = False,
     ) -> None:
         self._index, self._curves, self._boundary = index, curves, boundary
-        self._tolerance, self._chords = tolerance, chords
+        self._tolerance, self._chords, self._finest = tolerance, chords, finest
         self._before = before
         self._new: list[Array] = []
         self._size = curves.incidence.boundary.diagonal
@@ -174,7 +176,7 @@ class RegionAssembler:
                 a, b = sorted(incidence.face_site[f] for f in edge.faces)
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
         kinks = self._kinks(nodes)
-        maker = SheetMaker(self._index, incidence, points, self._add)
+        maker = SheetMaker(self._index, incidence, points, self._add, self._finest)
         own = SelfSheetMaker(self._index, incidence, points, self._add)
         sheets = []
         for pair in sorted(borders):

@@ -84,6 +84,13 @@ class SheetDomains:
             return Drawing(flat, None, 0)
         return self.beside(pair, points, feet) or Drawing(uv, domain, column)
 
+    def others(self, pair: tuple[int, int], points: Array, feet: Array) -> list[Drawing]:
+        """Drawings for sheets whose footprint is too uneven: beside an edge, or seen from afar."""
+        _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+        seen = Drawing(points @ axes[:2].T, None, 0)
+        beside = self.beside(pair, points, feet)
+        return [seen] if beside is None else [beside, seen]
+
     def beside(self, pair: tuple[int, int], points: Array, feet: Array) -> Drawing | None:
         """A drawing by lengths along an edge and distances from it, None if that merges points.
 

@@ -8,6 +8,7 @@ domain into components; each is in the skeleton or not, as exact queries inside 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -110,6 +111,7 @@ class SheetMaker:
         incidence: of the region.
         points: (n, 3) all vertices.
         add: makes a point (3,) a vertex and returns its number.
+        finest: whether the curves will not be sampled more finely.
     """
 
     def __init__(
@@ -118,7 +120,9 @@ class SheetMaker:
         incidence: Incidence,
         points: Array,
         add: Callable[[Array], int],
+        finest: bool = False,
     ) -> None:
+        self._finest = finest
         self._incidence, self._points = incidence, points
         self._add = add
         self._tests = SheetTests(index, incidence)
@@ -147,11 +151,14 @@ class SheetMaker:
         local = np.searchsorted(used, segments)
         try:
             return self._drawn(pair, used, points, local, drawing, surface)
-        except (UnevenError, MissingCurveError):
-            beside = self._domains.beside(pair, points, feet)
-            if beside is None:
+        except (UnevenError, MissingCurveError, CrossingError) as error:
+            if isinstance(error, CrossingError) and not self._finest:
                 raise
-        return self._drawn(pair, used, points, local, beside, surface)
+            first = error
+        for other in self._domains.others(pair, points, feet):
+            with suppress(UnevenError, MissingCurveError, CrossingError, SparseError):
+                return self._drawn(pair, used, points, local, other, surface)
+        raise first
 
     def _drawn(
         self,

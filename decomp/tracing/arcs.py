@@ -8,18 +8,20 @@ facets whose corners are ends of arcs and single contacts, if the arcs themselve
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Face, RegionBoundary
-from decomp.carriers import Carrier, Cone, Cylinder, Torus
+from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.carriers.reflexive import reflexive_gap
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.contacts import Contacts
 from decomp.tracing.fields import site_fields
 from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.patches import patch_rays
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import RegionQueries
 from decomp.tracing.seam_states import State
@@ -42,22 +44,37 @@ class Arcs:
     Args:
         boundary: of the region.
         sites: all sites.
+        region: its index.
         queries: of the region.
     """
 
     def __init__(
-        self, boundary: RegionBoundary, sites: tuple[Site, ...], queries: RegionQueries
+        self, boundary: RegionBoundary, sites: Sequence[Site], region: int, queries: RegionQueries
     ) -> None:
         self._boundary, self._sites, self._queries = boundary, sites, queries
+        self._region = region
         self._size = boundary.diagonal
         self._round = [
             (k, face)
             for k, face in enumerate(boundary.faces)
             if isinstance(boundary.carriers[face.carrier], (Cylinder, Cone, Torus))
         ]
+        self._balls = [
+            (k, face)
+            for k, face in enumerate(boundary.faces)
+            if isinstance(boundary.carriers[face.carrier], Sphere)
+        ]
 
-    def rays(self, touching: Contacts, point: Array) -> list[SeamRay]:
-        """The seams that leave a point, of arcs and of single contacts."""
+    def leaving(self, touching: Contacts, point: Array) -> tuple[Contacts, list[SeamRay]]:
+        """The seams that leave a point, of arcs and of single contacts, and with which contacts."""
+        balls = {k for k, face in self._balls if self._osculates(face, touching.radius, point)}
+        if not balls:
+            return touching, self._of_arcs(touching, point)
+        single = [k for k, sites in enumerate(touching.sites) if not self._is_on(sites, balls)]
+        of_patches = self._boundary, self._sites, self._region, self._queries, balls
+        return patch_rays(*of_patches, touching, single)
+
+    def _of_arcs(self, touching: Contacts, point: Array) -> list[SeamRay]:
         faces = {k for k, face in self._round if self._osculates(face, touching.radius, point)}
         if not faces:
             return seam_rays(touching.gradients)

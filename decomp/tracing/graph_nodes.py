@@ -45,7 +45,7 @@ class GraphNodes:
 
     def __init__(self, points: SeamPoints, seams: KnownSeams) -> None:
         self._points, self._seams, self._size = points, seams, points.size
-        self._arcs = Arcs(points.boundary, points.index.sites, points.queries)
+        self._arcs = Arcs(points.boundary, points.index.sites, points.region, points.queries)
         self.nodes: list[Node] = []
         self.open: list[tuple[int, int]] = []
         self.starts: dict[tuple[int, int], State] = {}
@@ -99,13 +99,14 @@ class GraphNodes:
         if known is not None:
             return known
         touching = self._points.contacts.at(point, SLACK * self._size)
+        touching, leaving = self._arcs.leaving(touching, point)
         rays, states = [], []
         arcs = {
             k
             for k, sites in enumerate(touching.sites)
             if ending and self._points.on_locus(sites, point)
         }
-        for ray in self._arcs.rays(touching, point):
+        for ray in leaving:
             if arcs & set(ray.contacts):
                 continue
             for contacts, state in departures(self._points, point, touching, ray):

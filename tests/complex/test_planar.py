@@ -117,6 +117,19 @@ def test_a_loop_across_the_period_encloses_its_inside() -> None:
     assert areas(made, points, (2.0, None)).sum() == pytest.approx(3 * 0.09)
 
 
+def test_edges_between_the_same_points_that_go_both_ways_round_are_two() -> None:
+    """A tall loop of half a period: inside and outside chords join the same corners."""
+    left, right = np.linspace(-1.56, -1.38, 20), np.linspace(0.35, 0.23, 20)
+    heights = np.linspace(-2.8, 0, 20)
+    points = np.concatenate(
+        [np.stack([left, heights], axis=1), np.stack([right, heights], axis=1)[::-1]]
+    )
+    made = triangulate(points, ring(0, 40), (4.232, None))
+    width = (right[1:] + right[:-1] - left[1:] - left[:-1]) / 2
+    assert made.components == 1
+    assert areas(made, points, (4.232, None)).sum() == pytest.approx(width @ np.diff(heights))
+
+
 def test_centroids_are_those_of_the_unwrapped_triangles() -> None:
     points = np.array([[0.9, 0.0], [0.1, 0.0], [0.0, 0.3]])
     made = triangulate(points, ring(0, 3), (1.0, None))

@@ -66,6 +66,11 @@ def with_boss(base: float, height: float, start: Point, end: Point, radius: floa
     )
 
 
+def with_ball(centre: Point) -> Solid:
+    """A block with a ball that breaks through its faces."""
+    return Block((0, 0, 0), (4, 3, 2.2), name="base") | Sphere(centre, 0.7, name="ball")
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -86,6 +91,8 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "ridge": lambda: with_boss(3, 3, (2.2, -0.5, 2.4), (2.2, 3.2, 2.4), 1),
     "boss on a wall": lambda: with_boss(3, 2.2, (0.1, 1.5, -0.5), (0.1, 1.5, 1.8), 0.5),
     "boss on a corner": lambda: with_boss(2.5, 4, (1.3, 2.3, 2.4), (1.3, 2.3, 5), 0.5),
+    "ball on a corner": lambda: with_ball((3.8, 2.7, 2)),
+    "ball on an edge": lambda: with_ball((2, 2.7, 2)),
     "bar in a wall": lambda: with_boss(3, 2.2, (-1, 1.2, 0.3), (5, 1.2, 0.3), 0.6),
     "grooved shaft": grooved,
 }

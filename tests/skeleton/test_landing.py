@@ -66,8 +66,8 @@ def test_what_leaves_the_end_of_an_axis() -> None:
     points = SeamPoints(geometry.index, geometry.regions[0], 0)
     place = np.array([2.2, 2.2, 2.4])
     touching = points.contacts.at(place, SLACK * points.size)
-    arcs = Arcs(geometry.regions[0], geometry.index.sites, points.queries)
-    (ray,) = arcs.rays(touching, place)
+    arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
+    _, (ray,) = arcs.leaving(touching, place)
     names = {geometry.index.sites[touching.sites[k][0]].name for k in ray.contacts}
     assert names == {"base.zmax@2|boss.side", "base.zmax|boss.side", "boss.top"}
     assert ray.direction[2] < 0
@@ -82,3 +82,26 @@ def test_the_sheet_between_the_edges_of_a_ridge_ends_on_its_axis() -> None:
     top = on[on[:, 2] > 2.4 - 1e-9]
     assert top[:, 1].min() == pytest.approx(0.5, abs=1e-9)
     assert top[:, 1].max() == pytest.approx(2.2, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "centre", "edges"),
+    [
+        ("ball on a corner", (3.8, 2.7, 2), {"base.xmax", "base.ymax", "base.zmax"}),
+        ("ball on an edge", (2, 2.7, 2), set()),
+    ],
+)
+def test_what_leaves_the_centre_of_a_ball(
+    name: str, centre: tuple[float, float, float], edges: set[str]
+) -> None:
+    """On a corner one seam, between the three edges; on an edge none, only their sheet."""
+    geometry = decomp.Geometry(SHAPES[name]())
+    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    touching = points.contacts.at(np.array(centre), SLACK * points.size)
+    arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
+    found, rays = arcs.leaving(touching, np.array(centre))
+    names = {geometry.index.sites[found.sites[k][0]].name for ray in rays for k in ray.contacts}
+    assert names == {f"ball.surface|{face}" for face in edges}
+    assert len(rays) == (1 if edges else 0)
+    for ray in rays:
+        assert (ray.direction < 0).all()

@@ -1,0 +1,125 @@
+"""The seams that leave the centre of a ball's face, from which whole patches of it are as near.
+
+All directions in which the centre touches the face are patches of the sphere of directions. Around
+them are gaps, bounded by the edges of the face, and in these by the directions of single contacts.
+Seams leave towards the centres of the largest empty caps in the gaps, those that touch three of
+these; on the hull of all gradients, see `local`, they are the facets with corners of three kinds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped]
+
+from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.sites.site import Site, SiteKind
+from decomp.tracing.contacts import Contacts
+from decomp.tracing.local import SeamRay
+from decomp.tracing.probing import TOWARDS
+from decomp.tracing.queries import RegionQueries
+from decomp.vectors import Array, Ints, frame
+
+SAMPLES = 257
+"""Points of every edge of the face."""
+ON_BOUNDARY = 1e-9
+ALIKE = 0.9995
+"""Cosine of the angle between directions of facets with the same kinds of corners that are one."""
+
+
+def patch_rays(
+    boundary: RegionBoundary,
+    sites: Sequence[Site],
+    region: int,
+    queries: RegionQueries,
+    faces: set[int],
+    touching: Contacts,
+    single: Sequence[int],
+) -> tuple[Contacts, list[SeamRay]]:
+    """Contacts that seams leave with, and the seams.
+
+    Args:
+        boundary: of the region.
+        sites: all sites.
+        region: its index.
+        queries: of the region.
+        faces: the faces whose centre it is.
+        touching: all contacts.
+        single: those that are on no edge and vertex of the faces.
+    """
+    centre = touching.feet[0] + touching.radius * touching.gradients[0]
+    corners = _Corners(boundary, sites, region, faces, touching, single)
+    gradients = (centre - corners.feet) / touching.radius
+    try:
+        hull = ConvexHull(gradients)
+    except (QhullError, ValueError):
+        # all on one circle: only its axis leaves
+        return touching, []
+    chosen: list[tuple[frozenset[int], Array, Ints]] = []
+    for simplex, equation in zip(hull.simplices, hull.equations, strict=True):
+        one, two, three = (corners.kinds[k] for k in simplex)
+        if one & two or two & three or three & one:
+            continue
+        way, kinds = -equation[:3], one | two | three
+        # the middle of the cap is on the face in patches, farther away in gaps
+        towards = centre + TOWARDS * touching.radius * way
+        reach = float(queries.nearest(towards[None]).distance[0])
+        if reach <= (1 - TOWARDS) * touching.radius + ON_BOUNDARY * boundary.diagonal:
+            continue
+        if not any(float(w @ way) > ALIKE for k, w, _ in chosen if k == kinds):
+            chosen.append((kinds, way, simplex))
+    if not chosen:
+        return touching, []
+    feet, groups = [touching.feet[list(single)]], [touching.sites[k] for k in single]
+    rays = []
+    for _, way, simplex in chosen:
+        x, y = frame(way)
+        around = gradients[simplex] - gradients[simplex].mean(axis=0)
+        order = simplex[np.argsort(np.arctan2(around @ y, around @ x))]
+        first = len(groups)
+        feet.append(corners.feet[order])
+        groups += [corners.groups[k] for k in order]
+        slope = float(np.mean(gradients[simplex] @ way))
+        rays.append(SeamRay(way, (first, first + 1, first + 2), slope))
+    every = np.concatenate(feet)
+    found = Contacts(touching.radius, every, tuple(groups), (centre - every) / touching.radius)
+    return found, rays
+
+
+class _Corners:
+    """Points of edges of some faces, and single contacts.
+
+    Attributes:
+        feet: (n, 3).
+        kinds: for each the edges that it is on, or a number of its own.
+        groups: the sites of each.
+    """
+
+    def __init__(
+        self,
+        boundary: RegionBoundary,
+        sites: Sequence[Site],
+        region: int,
+        faces: set[int],
+        touching: Contacts,
+        single: Sequence[int],
+    ) -> None:
+        number = {(s.kind, s.index): k for k, s in enumerate(sites) if s.region == region}
+        feet = [touching.feet[list(single)]]
+        self.kinds = [frozenset({-1 - k}) for k in single]
+        self.groups = [touching.sites[k] for k in single]
+        for k, edge in enumerate(boundary.edges):
+            own = number.get((SiteKind.EDGE, k))
+            if own is None or not faces & set(edge.faces) or edge.convexity is Convexity.CONVEX:
+                continue
+            along = np.linspace(edge.start, edge.end, SAMPLES)
+            feet.append(edge.curve.point(edge.curve.wrapped(along)))
+            self.kinds += [frozenset({own})] * SAMPLES
+            self.groups += [(own,)] * SAMPLES
+            for end, vertex in zip((-SAMPLES, -1), edge.vertices or (), strict=False):
+                around = [number.get((SiteKind.EDGE, e)) for e in boundary.vertices[vertex].edges]
+                self.kinds[end] = frozenset(s for s in around if s is not None)
+                corner = number.get((SiteKind.VERTEX, vertex))
+                self.groups[end] = (own,) if corner is None else (corner, own)
+        self.feet = np.concatenate(feet)
