@@ -18,7 +18,7 @@ SWEEPS = 20
 RANK = 1e-7
 """Directions in which the equations change less than this part of the most are left alone."""
 AT_REST = 4e-16
-"""Steps, and differences of distances, below this part of the size are the last."""
+"""Steps below this part of the size are the last ones; so large is the rounding of distances."""
 
 Balanced = tuple[float, float, float, float, float]
 
@@ -127,7 +127,7 @@ def balance(
             for j in range(3):
                 work[k, j] = work[k + 1, 4 + j] - work[0, 4 + j]
         orthogonalise(work, rows)
-        if greatest - least <= AT_REST * size:
+        if greatest - least <= AT_REST * max(size, abs(x), abs(y), abs(z)):
             # where the feet coincide gradients differ by rounding, and steps would be at random
             break
         most = 0.0
