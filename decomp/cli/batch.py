@@ -9,10 +9,11 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
 from decomp.errors import DecompError, FileError, InputError
@@ -109,7 +110,7 @@ def _folder(outputs: Sequence[Path]) -> Path:
 
 def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcome]:
     """All models, at most `jobs` at a time; when interrupted, all are stopped."""
-    running: list[subprocess.Popen[str]] = []
+    running = _Workers()
     with (
         _bars(options.models, options.quiet) as tells,
         ThreadPoolExecutor(options.jobs or 1) as pool,
@@ -121,7 +122,7 @@ def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcom
         except BaseException:
             for future in waiting:
                 future.cancel()
-            _stop(running)
+            running.stop()
             raise
 
 
@@ -130,19 +131,11 @@ def _one(
     model: Path,
     target: Path,
     tell: Tell,
-    running: list[subprocess.Popen[str]],
+    running: _Workers,
 ) -> Outcome:
     start = time.perf_counter()
     values = {name: getattr(options, name) for name in PASSED}
-    process = subprocess.Popen(
-        [sys.executable, "-m", "decomp.cli.batch_worker"],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    running.append(process)
+    process = running.started()
     assert process.stdin is not None
     assert process.stdout is not None
     assert process.stderr is not None
@@ -162,16 +155,43 @@ def _one(
     return Outcome(model, time.perf_counter() - start, figures, error)
 
 
-def _stop(running: Sequence[subprocess.Popen[str]]) -> None:
-    for process in running:
-        if process.poll() is None:
-            process.send_signal(signal.SIGINT)
-    end = time.monotonic() + PATIENCE
-    for process in running:
-        try:
-            process.wait(max(0.0, end - time.monotonic()))
-        except subprocess.TimeoutExpired:
-            process.kill()
+class _Workers:
+    """The processes that mesh, which are all stopped when one is."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._stopped = False
+        self._all: list[subprocess.Popen[str]] = []
+
+    def started(self) -> subprocess.Popen[str]:
+        """A new process, known before it can be missed."""
+        with self._lock:
+            if self._stopped:
+                raise CancelledError
+            process = subprocess.Popen(
+                [sys.executable, "-m", "decomp.cli.batch_worker"],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+                start_new_session=True,
+            )
+            self._all.append(process)
+            return process
+
+    def stop(self) -> None:
+        """Interrupt all, and kill those that do not end soon."""
+        with self._lock:
+            self._stopped = True
+        for process in self._all:
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        end = time.monotonic() + PATIENCE
+        for process in self._all:
+            try:
+                process.wait(max(0.0, end - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                process.kill()
 
 
 @contextmanager
