@@ -34,6 +34,7 @@ NO_LENGTH = 1e-8
 HALVINGS = 60
 STEPS = 40
 LEAST_SLOPE = 1e-12
+"""Changes of the distance against the radius count as no less."""
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near
 measured by the ball too: close to a convex vertex balls are small."""

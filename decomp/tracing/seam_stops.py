@@ -20,6 +20,7 @@ from decomp.vectors import Array, norm
 
 FOOT_ON_EDGE = 1e-9
 AT_VERTEX = 1e-4
+"""Feet lost while they run together are nearer to their vertex than this part of the size."""
 NEAR_WALL = 1e-3
 """Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
 

@@ -20,6 +20,7 @@ from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
 
 NEAR = 1e-6
+"""How far off feet and place are by default."""
 STEPS = 20
 ACROSS = 1e-3
 """Conditions on the line that differ less than this are one."""

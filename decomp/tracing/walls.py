@@ -157,7 +157,7 @@ def cross(
     (3,) is a point of the wall's edge close by, and then the point there.
 
     Returns:
-        CROSSED if it was found, JOINS if the place is to be read off (`joins`), or MISSED.
+        CROSSED if it was found, JOINS if the place is to be read off (`arriving`), or MISSED.
     """
     good, fl = gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)
     if not good:

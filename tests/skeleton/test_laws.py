@@ -18,8 +18,8 @@ from tests.solids import SOLIDS
 
 ROOT = Path(__file__).parents[2]
 SCALE = 0.25
-SMALL = 1e-4
-"""Areas differ by the chord error along their borders: by so much of the diagonal's square."""
+FINER = {"ridge": 2e-5, "slot": 2e-5, "washer": 1e-4}
+"""Tolerances where small areas and thin cells differ by the chord error along their borders."""
 NOT_MOVED = {
     "ball on a corner",
     "bar in a wall",
@@ -52,7 +52,11 @@ def pairs(skeleton: Skeleton, region: RegionSkeleton) -> Counter[tuple[str, ...]
 
 @pytest.mark.parametrize("name", [param(name) for name in MOVED])
 def test_similar_solids_have_similar_skeletons(name: str) -> None:
-    plain, other = Region(skeleton_of(name)), Region(decomp.skeleton(moved(solid_of(name))))
+    if name in FINER:
+        both = [solid_of(name), moved(solid_of(name))]
+        plain, other = (Region(decomp.skeleton(s, tolerance=FINER[name])) for s in both)
+    else:
+        plain, other = Region(skeleton_of(name)), Region(decomp.skeleton(moved(solid_of(name))))
     assert other.counts() == plain.counts()
     assert len(other.parts.reflexive) == len(plain.parts.reflexive)
     assert len(other.parts.trims) == len(plain.parts.trims)
@@ -60,14 +64,12 @@ def test_similar_solids_have_similar_skeletons(name: str) -> None:
     assert _parities(other.parts) == _parities(plain.parts)
     for names in pairs(plain.skeleton, plain.parts):
         area = SCALE**2 * plain.area(*names)
-        assert other.area(*names) == pytest.approx(
-            area, rel=5e-3, abs=SMALL * other.skeleton.diagonal**2
-        )
+        assert other.area(*names) == pytest.approx(area, rel=5e-3, abs=1e-6)
     assert [p[3] for p in sorted(other.inner_junctions(), key=lambda p: p[3])] == pytest.approx(
         sorted(SCALE * p[3] for p in plain.inner_junctions()), abs=2e-9
     )
     volumes = {name: SCALE**3 * volume for name, volume in plain.volumes().items()}
-    assert other.volumes() == pytest.approx(volumes, rel=5e-3)
+    assert other.volumes() == pytest.approx(volumes, rel=2e-3)
 
 
 def _parities(region: RegionSkeleton) -> Counter[object]:
