@@ -1,9 +1,10 @@
 """Tetrahedra that follow the complex within epsilon are made to follow the exact one.
 
 Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
-node has no room there it is merged with a neighbour, or the sheet is taken off the face that it is
-on, and all is done again. Then tetrahedra with small angles are exchanged for better ones, and
-nodes that have moved past the end of a sheet or line are put on the next one.
+node has no room there a cut-off edge is put back, the node is merged with a neighbour, or the
+sheet is taken off the face that it is on, and all is done again. Then tetrahedra with small angles
+are exchanged for better ones, and nodes that have moved past the end of a sheet or line are put on
+the next one.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 from decomp.complex.refine_elements import Elements
 from decomp.tetra.collapsing import collapsed
 from decomp.tetra.faces import faces_of
+from decomp.tetra.filling import filled
 from decomp.tetra.flipping import flipped
 from decomp.tetra.layout import Layout
 from decomp.tetra.project import Projector
@@ -24,7 +26,7 @@ from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder, renewed
 from decomp.vectors import Array, Ints
 
-ROUNDS = 6
+ROUNDS = 8
 FLIPS = 3
 """How often tetrahedra with small angles are exchanged and nodes smoothed again."""
 SLIPS = 3
@@ -72,17 +74,18 @@ def conformed(
         diagonal: of the model.
     """
     for last in range(ROUNDS - 1, -1, -1):
-        tagged = tagger.tagged(points, part, faces_of(tets))
+        faces = faces_of(tets)
+        tagged = tagger.tagged(points, part, faces)
         targets = finder.targets(points, tagged)
         projector = Projector(points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
         mended = None
         if len(left) and last:
             at = projector.points
-            mended = collapsed(at, tets, part, left, finder.kinds(tagged))
-            if mended is None:
-                owner = tagger.owner(tagged, left)
-                mended = separated(at, tets, part, left, owner, tagger.parts_at)
+            if tagger.still_right(tagged, at, part, faces, left):
+                mended = _mended(at, tets, part, left, tagger, tagged, finder)
+            else:
+                mended = at, tets, part
         if mended is None:
             break
         points, tets, part = mended
@@ -104,3 +107,22 @@ def conformed(
     off = strayed(projector.points, tagged, plan, elements, diagonal)
     left = np.unique(np.concatenate([left, slipped, off]))
     return Conformed(projector.points, tets, part, tagged, left)
+
+
+def _mended(
+    points: Array,
+    tets: Ints,
+    part: Ints,
+    left: Ints,
+    tagger: Tagger,
+    tagged: Tagged,
+    finder: Finder,
+) -> tuple[Array, Ints, Ints] | None:
+    """Change tetrahedra at nodes that have no room where they belong; None if none could be."""
+    whole = filled(points, tets, part, left, tagger.parts_at)
+    if whole is not None:
+        return (points, *whole)
+    merged = collapsed(points, tets, part, left, finder.kinds(tagged))
+    if merged is not None:
+        return merged
+    return separated(points, tets, part, left, tagger.owner(tagged, left), tagger.parts_at)

@@ -1,9 +1,8 @@
 """Tetrahedra with small angles are exchanged for others of the same space with better ones.
 
 An edge inside a cell can go: the tetrahedra around it, between its ends and a ring of vertices,
-give way to those over the best triangulation of the ring (Klincsek's optimum). A triangle
-inside a cell can go too: the two tetrahedra at it give way to three around a new edge. Triangles on
-patches stay.
+give way to the best ones over the ring (`rings`). A triangle inside a cell can go too: the two
+tetrahedra at it give way to three around a new edge. Triangles on patches stay.
 """
 
 from __future__ import annotations
@@ -14,16 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.tetra.faces import OPPOSITE, least_dihedral
+from decomp.tetra.rings import best_over_ring, ring_around
 from decomp.vectors import Array, Ints
 
 WANTED = 12.0
 """Tetrahedra with dihedral angles (degrees) below this are exchanged, if it helps."""
 GAIN = 0.2
 """By so many degrees the least angle must grow."""
-RING = 7
-"""The most vertices of a ring."""
-EVEN = [p for p in itertools.permutations(range(4)) if np.linalg.det(np.eye(4)[list(p)]) > 0]
-"""Orders of a tetrahedron's vertices that leave it positive."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,9 +104,9 @@ class _Patch:
             around = self._at[a] & self._at[b]
             if (a, b) in self._kept_edges or not self._one_part(around):
                 continue
-            ring = self._ring(a, b, around)
+            ring = ring_around([self._tets[k] for k in around], a, b)
             if ring is not None:
-                found += self._judged(around, _best_over_ring(self._points, a, b, ring))
+                found += self._judged(around, best_over_ring(self._points, a, b, ring))
         return found
 
     def _without_faces(self, number: int) -> list[_Exchange]:
@@ -142,22 +138,6 @@ class _Patch:
             return []
         return [_Exchange(tuple(old), new, angle)]
 
-    def _ring(self, a: int, b: int, around: set[int]) -> list[int] | None:
-        """The vertices around an edge in order, None if they do not close or are too many."""
-        after = {}
-        for number in around:
-            row = self._tets[number]
-            order = next(p for p in EVEN if row[p[0]] == a and row[p[1]] == b)
-            after[row[order[2]]] = row[order[3]]
-        if not 3 <= len(around) <= RING or len(after) != len(around):
-            return None
-        ring = [next(iter(after))]
-        while len(ring) < len(after):
-            if after.get(ring[-1]) in (None, ring[0]):
-                return None
-            ring.append(after[ring[-1]])
-        return ring if after.get(ring[-1]) == ring[0] else None
-
     def _do(self, exchange: _Exchange) -> None:
         part = self._part[exchange.old[0]]
         for number in exchange.old:
@@ -172,31 +152,3 @@ class _Patch:
             self._part.append(part)
             self._angle.append(angle)
             self._alive.append(True)
-
-
-def _best_over_ring(points: Array, a: int, b: int, ring: list[int]) -> Ints:
-    """The best tetrahedra (2 (n - 2), 4) between an edge's ends and its ring of n vertices.
-
-    The least angle over part i..j of the ring is that over its best triangle i, k, j and the two
-    parts that this leaves.
-    """
-    count = len(ring)
-    triples = list(itertools.combinations(range(count), 3))
-    corners = np.array(ring)[np.array(triples)]
-    ends = np.broadcast_to([[a], [b]], (2, len(triples)))
-    lower = np.column_stack([corners[:, [0, 2, 1]], ends[0]])
-    upper = np.column_stack([corners, ends[1]])
-    angle = np.minimum(least_dihedral(points, lower), least_dihedral(points, upper))
-    number = {triple: k for k, triple in enumerate(triples)}
-    best: dict[tuple[int, int], tuple[float, list[int]]] = {}
-    for width in range(1, count):
-        for i in range(count - width):
-            j = i + width
-            options: list[tuple[float, list[int]]] = [(180.0, [])] if width == 1 else []
-            for k in range(i + 1, j):
-                row = number[i, k, j]
-                (low, left), (high, right) = best[i, k], best[k, j]
-                options.append((min(low, high, float(angle[row])), [*left, row, *right]))
-            best[i, j] = max(options, key=lambda option: option[0])
-    rows = best[0, count - 1][1]
-    return np.concatenate([lower[rows], upper[rows]])

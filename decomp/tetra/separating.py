@@ -51,18 +51,21 @@ def separated(
         others = np.setdiff1d(np.unique(tets[wrong]), np.append(touching, node))
         for other in others.tolist():
             cut = _passage(points[node], points[other], own, locate)
-            points, tets, part = _split(points, tets, part, node, other, cut)
+            if cut is not None:
+                points, tets, part = _split(points, tets, part, node, other, cut)
         part = np.where((tets == node).any(axis=1), own, part)
         touched |= around
         changed = True
     return (points, tets, part) if changed else None
 
 
-def _passage(node: Array, other: Array, own: int, locate: Locate) -> Array:
-    """The point (3,) at which an edge leaves the part of its first end."""
-    held = locate(node + CUTS[:, None] * (other - node)) == own
-    first = CUTS[int(np.argmin(held))] if not held.all() else FARTHEST
-    share = min(max(float(first), NEAREST), FARTHEST)
+def _passage(node: Array, other: Array, own: int, locate: Locate) -> Array | None:
+    """The point (3,) at which an edge leaves the part of its first end, None if it does not."""
+    found = locate(node + CUTS[:, None] * (other - node))
+    held = (found == own) | (found == OUTSIDE)  # on the node's own face
+    if held.all():
+        return None
+    share = min(max(float(CUTS[int(np.argmin(held))]), NEAREST), FARTHEST)
     return np.asarray(node + share * (other - node))
 
 

@@ -89,6 +89,26 @@ class Tagger:
         kept = patches >= 0
         return Tagged(triangles[kept], sides[kept], patches[kept])
 
+    def still_right(
+        self, tagged: Tagged, points: Array, part: Ints, faces: Faces, at: Ints
+    ) -> bool:
+        """Whether triangles at some nodes would be told the same patches where nodes are now.
+
+        Beside a sharp edge that TetWild has cut off, a triangle can be turned to either face until
+        its other nodes are on the edge.
+
+        Args:
+            tagged: before.
+            points, part, faces: as for `tagged`, now.
+            at: the nodes.
+        """
+        rows = np.isin(faces.triangles, at).any(axis=1)
+        now = self.tagged(points, part, Faces(faces.triangles[rows], faces.tets[rows]))
+        rows = np.isin(tagged.triangles, at).any(axis=1)
+        before = np.column_stack([np.sort(tagged.triangles[rows], axis=1), tagged.patches[rows]])
+        after = np.column_stack([np.sort(now.triangles, axis=1), now.patches])
+        return np.array_equal(np.unique(before, axis=0), np.unique(after, axis=0))
+
     def parts_at(self, points: Array) -> Ints:
         """The parts (k,) of cells that hold points (k, 3)."""
         return locate(self._geometry, self._cells, points).part

@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
 from decomp.tetra.faces import faces_of, least_dihedral, volumes
-from decomp.tetra.flipping import RING, WANTED, flipped
+from decomp.tetra.flipping import WANTED, flipped
+from decomp.tetra.rings import RING
 from decomp.vectors import Array, Ints
 
 NO_TRIANGLES = np.empty((0, 3), dtype=np.int64)
