@@ -10,15 +10,17 @@ from functools import partial
 import numpy as np
 from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
-from decomp.carriers.reflexive import inner_radius
+from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.complex.model import LineKind
+from decomp.curves.circle import Circle
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
-from decomp.medial.incidence import Incidence
+from decomp.medial.incidence import ANGLE, Incidence
 from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.reflexive import ReflexivePart
 from decomp.medial.trims import TrimPiece, TrimScanner, on_locus, solve_radius
 from decomp.sites import SiteIndex
+from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.graph import Seam
@@ -27,6 +29,8 @@ from decomp.vectors import Array, Ints, norm
 ALONG = 16
 """Points by which a piece of trim or reflexive locus is first known."""
 BESIDE = 1e-5
+AT_LOCUS = 1e-4
+"""A trim ends on a locus if it is that part of its radius from it beside the end."""
 STEP = 1e-2
 """Step of differences at a turning point, as a part of the interval that holds it."""
 RUN = 256
@@ -189,9 +193,9 @@ def _trim_piece(
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
     balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
-    carrier = _locus_face(incidence, over.sites, balls.centre[len(s) // 2])
-    if carrier is not None:
-        return partial(_locus_radius, incidence, over, carrier)
+    round_site = _locus_site(incidence, over.sites, balls.centre)
+    if round_site is not None:
+        return partial(_locus_radius, incidence, over, round_site)
     far = trim.far[0]
     which: Ints = np.full(len(s), far, dtype=np.int64)
     feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
@@ -204,7 +208,7 @@ def _trim_piece(
         if r <= 1e-3 * size and abs(r2 - 2 * r) <= 0.2 * r:
             ends.append(over.feet(np.array([stop]))[0])
         else:
-            ends.append(curve.at(np.array([stop]), np.array([r]))[0])
+            ends.append(_end(incidence, curve, stop, r))
     points = np.concatenate([ends[0][None], points[2:-2], ends[1][None]])
     whole = over.closed and abs(span - (over.end - over.start)) <= 1e-12 * abs(span)
     if whole:
@@ -216,18 +220,52 @@ def _trim_piece(
     return CurvePiece(LineKind.TRIM, contacts, curve, points, at)
 
 
-def _locus_face(incidence: Incidence, sites: tuple[int, int], point: Array) -> int | None:
-    """The face that is touched whose carrier has a centre of curvature in a ball's centre."""
+def _end(incidence: Incidence, curve: TrimCurve, stop: float, guess: float) -> Array:
+    """The end (3,) of a trim, at a parameter of its normal curve.
+
+    There a normal of a face can lead to the face's locus, from which the far site may be as near
+    along an edge: then the locus tells the place.
+    """
+    at, over = np.array([stop]), curve.over
+    q, n = over.feet(at), over.directions(at)
+    for face in incidence.faces_at(over.sites):
+        radius = _face_radius(incidence, face, q)
+        turned = float(norm(incidence.inward(face, q)[0] - n[0]))
+        if turned <= ANGLE and abs(radius - guess) <= AT_LOCUS * guess:
+            return np.asarray(q[0] + radius * n[0])
+    return curve.at(at, np.array([guess]))[0]
+
+
+def _face_radius(incidence: Incidence, face: int, foot: Array) -> float:
+    """How far along its normal at a foot (1, 3) a face's reflexive locus is, inf without one."""
+    it = incidence.boundary.faces[face]
+    carrier = incidence.boundary.carriers[it.carrier]
+    if not np.isfinite(reflexive_gap(carrier, it.outward, foot)).all():
+        return np.inf
+    return float(inner_radius(carrier, it.outward, foot)[0])
+
+
+def _locus_site(incidence: Incidence, sites: tuple[int, int], centres: Array) -> int | None:
+    """The site that is touched on whose reflexive locus most of some balls' centres (k, 3) are.
+
+    Not all: where the site is bent most, a ball can come to rest a little late.
+    """
     for site in sites:
-        if on_locus(incidence, (site,), point[None])[0]:
-            return incidence.sites[site].index
+        if 2 * np.count_nonzero(on_locus(incidence, (site,), centres)) > len(centres):
+            return site
     return None
 
 
-def _locus_radius(incidence: Incidence, curve: NormalCurve, face: int, s: Array) -> Array:
-    """Radii (k,) of the balls that touch a face at the feet and have their centres on its locus."""
-    it = incidence.boundary.faces[face]
-    return inner_radius(incidence.boundary.carriers[it.carrier], it.outward, curve.feet(s))
+def _locus_radius(incidence: Incidence, curve: NormalCurve, number: int, s: Array) -> Array:
+    """Radii (k,) of the balls that touch a site at the feet and have their centres on its locus."""
+    site = incidence.sites[number]
+    if site.kind is SiteKind.EDGE:
+        circle = incidence.boundary.edges[site.index].curve
+        assert isinstance(circle, Circle)
+        n = curve.directions(s)
+        return np.asarray(circle.radius / np.hypot(n @ circle.x, n @ circle.y))
+    face = incidence.boundary.faces[site.index]
+    return inner_radius(incidence.boundary.carriers[face.carrier], face.outward, curve.feet(s))
 
 
 def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
@@ -248,7 +286,9 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
             if face in boundary.edges[e].faces and e in incidence.edge_site
         ]
         foot = site_fields(boundary, incidence.sites, which, balls.centre, balls.foot).foot[0]
-        exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)
+        exact = _face_radius(incidence, face, point[None])
+        if abs(exact - radius) > AT_LOCUS * radius:
+            exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)
         points = point + (exact / radius) * ray[:, None] * direction
         a, b = sorted(edges)
         found.append(

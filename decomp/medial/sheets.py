@@ -144,6 +144,11 @@ class SheetMaker:
         """
         segments = segments_of(lines)
         used = np.unique(np.concatenate([segments.ravel(), np.array(isolated, dtype=np.int64)]))
+        if len(segments) == 1 and len(used) == 2:
+            if len(lines) == 1:
+                return []  # a curve on which the two sites are near, but no sheet beside it
+            where = place(self._points[used[0]])
+            raise CrossingError(f"curves have one chord near {where}", segments)
         points = self._points[used]
         feet = self._incidence.feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)

@@ -29,6 +29,8 @@ from decomp.vectors import Array, Bools, Ints, dot, norm, place
 SAMPLES = 96
 NEAREST_END = 1e-5
 """First sample beside the end of a normal curve, as a part of its length."""
+BESIDE_END = 11
+"""So many samples are close to each end."""
 NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
@@ -85,6 +87,8 @@ class TrimScanner:
         for curve, found in zip(curves, samples, strict=True):
             if curve.closed:
                 found.append(replace(found[0], s=curve.end))
+            else:
+                _continue_to_ends(found)
         cuts = self._changes(curves, samples)
         result = []
         for c, known, cut in zip(curves, samples, cuts, strict=True):
@@ -286,14 +290,27 @@ class TrimScanner:
 
 
 def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools:
-    """Whether points (k, 3) are centres of curvature of one of some faces' carriers."""
+    """Whether points (k, 3) are on the reflexive locus of one of some sites."""
     return loci.on_locus(incidence.boundary, incidence.sites, sites, points, LOCUS)
+
+
+def _continue_to_ends(samples: list[_Sample]) -> None:
+    """Give samples beside a curve's ends the contact of those farther in if they have its site.
+
+    Where a curve ends in a place at which more is touched, this is as near beside the end but for
+    the square of the way to it.
+    """
+    for order in (range(BESIDE_END - 1, -1, -1), range(-BESIDE_END, 0)):
+        for k in order:
+            inner = samples[k + 1] if order.step < 0 else samples[k - 1]
+            if samples[k].site == inner.site and inner.site in inner.far:
+                samples[k] = replace(samples[k], far=inner.far)
 
 
 def _first(curve: NormalCurve) -> Array:
     """The parameters of the first samples over a normal curve."""
     inner = np.linspace(0, 1, SAMPLES + 1)[1:-1]
-    near = np.geomspace(NEAREST_END, inner[0], 12)[:-1]
+    near = np.geomspace(NEAREST_END, inner[0], BESIDE_END + 1)[:-1]
     parts = (
         np.concatenate([[0.0], inner])
         if curve.closed

@@ -1,4 +1,4 @@
-"""Points that are as near to many points of one face."""
+"""Points that are as near to many points of one face, or of an edge that is an arc of a circle."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.carriers.reflexive import inner_radius, reflexive_gap
+from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind
 from decomp.vectors import Array, Bools
 
@@ -15,12 +16,14 @@ from decomp.vectors import Array, Bools
 def locus_gap(
     boundary: RegionBoundary, sites: Sequence[Site], which: Sequence[int], points: Array
 ) -> Array:
-    """Distance (k,) of points (k, 3) from the nearest reflexive locus of some faces' carriers.
+    """Distance (k,) of points (k, 3) from the nearest reflexive locus of some sites.
+
+    That of a face is its carrier's, that of an arc of a circle the circle's axis.
 
     Args:
         boundary: of the region.
         sites: all sites, into which `which` points.
-        which: sites; those that are no faces have no locus.
+        which: sites.
         points: (k, 3).
     """
     result = np.full(len(points), np.inf)
@@ -30,6 +33,12 @@ def locus_gap(
             face = boundary.faces[site.index]
             gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
             result = np.minimum(result, gap)
+        elif site.kind is SiteKind.EDGE:
+            curve = boundary.edges[site.index].curve
+            if isinstance(curve, Circle):
+                away = points - curve.centre
+                across = np.stack([away @ curve.x, away @ curve.y])
+                result = np.minimum(result, np.hypot(*across))
     return result
 
 
@@ -40,7 +49,7 @@ def on_locus(
     points: Array,
     within: float,
 ) -> Bools:
-    """Whether points (k, 3) are centres of curvature of one of some faces' carriers.
+    """Whether points (k, 3) are on the reflexive locus of one of some sites.
 
     They are no farther from one than `within`, a part of the region's size.
     """

@@ -135,10 +135,13 @@ class SeamTracer:
     def _onwards(self, at: State) -> State | None:
         """The same point with the sites of the seam behind it, None if it does not go on alone.
 
-        It does if one seam, with as many contacts, leaves straight on.
+        It does if one seam, with as many contacts, leaves straight on. From a reflexive locus none
+        does: there a face is as near all around.
         """
         points = self._points
         touching = points.contacts.at(at.point, SLACK * points.size)
+        if any(points.on_locus(sites, at.point) for sites in touching.sites):
+            return None
         rays = seam_rays(touching.gradients)
         if len(rays) != 2 or len(touching.feet) != len(at.sites):
             return None
