@@ -70,16 +70,12 @@ def _runs(seam: Seam) -> list[tuple[tuple[int, ...], Array, Array]]:
 def _seam_piece(
     incidence: Incidence, sites: tuple[int, ...], points: Array, traced: Array
 ) -> CurvePiece:
-    several = len(set(sites)) < len(sites)
-    # several feet on one edge are known from tracing; to find them anew can fail where one of them
-    # is about to part
-    feet = traced if several else incidence.feet(sites, points)
-    curve = SeamCurve(incidence, sites, points, feet)
+    curve = SeamCurve(incidence, sites, points, traced)
     while len(points) < 4:
         points = _denser(curve, points)
     k = len(points) // 2
     middle = points[k]
-    at = (curve.feet_at(middle[None]) if several else incidence.feet(sites, middle[None]))[0]
+    at = curve.feet_at(middle[None])[0]
     contacts = []
     for site, foot in zip(sites, at, strict=True):
         contacts.append(incidence.touched(site, foot, (middle - foot) / float(norm(middle - foot))))

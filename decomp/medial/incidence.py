@@ -17,7 +17,7 @@ import numpy as np
 from decomp.boundary.topology import Convexity, Edge, RegionBoundary
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.fields import edge_foot, site_fields
-from decomp.vectors import Array, cross, dot, nearest_rows, norm
+from decomp.vectors import Array, Bools, cross, dot, nearest_rows, norm
 
 NEAR = 1e-8
 """Feet nearer to an edge or vertex than this part of the region's diagonal are on it."""
@@ -87,7 +87,9 @@ class Incidence:
     def feet(self, sites: Sequence[int], points: Array) -> Array:
         """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest samples.
 
-        An edge that stands twice among the sites has two feet, unless they have run together.
+        Where that leads past an edge's end the foot is near the nearest of its other samples that
+        are nearer than their neighbours. An edge that stands twice among the sites has two feet,
+        unless they have run together.
         """
         found = np.empty((len(points), len(sites), 3))
         for column, site in enumerate(sites):
@@ -95,14 +97,21 @@ class Incidence:
             if before:
                 found[:, [*before, column]] = self._several(site, points, len(before) + 1)
                 continue
-            which = np.full(len(points), site, dtype=np.int64)
             it = self.sites[site]
             guess = points
             if it.kind is SiteKind.EDGE:
                 samples = self.boundary.edges[it.index].samples
                 guess = samples[nearest_rows(samples, points)]
-            found[:, column] = site_fields(self.boundary, self.sites, which, points, guess).foot
+            found[:, column] = self._feet(site, points, guess)
+            if it.kind is SiteKind.EDGE and not self.boundary.edges[it.index].closed:
+                past = np.flatnonzero(_past_ends(samples, found[:, column], NEAR * self._size))
+                inner, known = _inner_guess(samples, points[past])
+                found[past[known], column] = self._feet(site, points[past[known]], inner[known])
         return found
+
+    def _feet(self, site: int, points: Array, guess: Array) -> Array:
+        which = np.full(len(points), site, dtype=np.int64)
+        return site_fields(self.boundary, self.sites, which, points, guess).foot
 
     def _several(self, site: int, points: Array, count: int) -> Array:
         """The nearest feet (k, count, 3) of points (k, 3) on an edge, from all its samples."""
@@ -205,3 +214,25 @@ class Incidence:
 def angle_between(a: Array, b: Array, axis: Array) -> Array:
     """Angle (...) from a to b about unit `axis`, in (-pi, pi]."""
     return np.arctan2(dot(cross(a, b), axis), dot(a, b))
+
+
+def _past_ends(samples: Array, feet: Array, slack: float) -> Bools:
+    """Which feet (k, 3) on an edge's curve are beyond the ends of its samples (n, 3)."""
+    result = np.zeros(len(feet), dtype=np.bool_)
+    nearest = nearest_rows(samples, feet)
+    for end, before in ((0, 1), (len(samples) - 1, len(samples) - 2)):
+        way = samples[end] - samples[before]
+        result |= (nearest == end) & ((feet - samples[end]) @ way > slack * float(norm(way)))
+    return result
+
+
+def _inner_guess(samples: Array, points: Array) -> tuple[Array, Bools]:
+    """The nearest of the samples (n, 3) that are nearer to points (k, 3) than both neighbours.
+
+    Returns:
+        these (k, 3), and whether there is one (k,).
+    """
+    gaps = norm(points[:, None] - samples[None])
+    inner = (gaps[:, 1:-1] <= gaps[:, :-2]) & (gaps[:, 1:-1] <= gaps[:, 2:])
+    best = np.where(inner, gaps[:, 1:-1], np.inf).argmin(axis=1) if inner.size else np.zeros(0, int)
+    return samples[1:-1][best], inner.any(axis=1)

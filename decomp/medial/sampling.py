@@ -49,16 +49,19 @@ def sampled(element: CurveElement, points: Array, tolerance: float, least: int =
 
 
 def _densified(element: CurveElement, points: Array, tolerance: float) -> Array:
+    """Points between which the curve is not farther off than a tolerance.
+
+    Shorter chords stay: where a curve ends in a centre of curvature its place is ill defined.
+    """
     dense = points
     for _ in range(ROUNDS):
-        middle = (dense[:-1] + dense[1:]) / 2
+        long = np.flatnonzero(norm(np.diff(dense, axis=0)) > tolerance)
+        middle = (dense[long] + dense[long + 1]) / 2
         placed = element.place(middle)
-        off = norm(placed - middle)
-        rough = off > tolerance
+        rough = norm(placed - middle) > tolerance
         if not rough.any():
             break
-        rows = np.flatnonzero(rough) + 1
-        dense = np.insert(dense, rows, placed[rough], axis=0)
+        dense = np.insert(dense, long[rough] + 1, placed[rough], axis=0)
     return dense
 
 
