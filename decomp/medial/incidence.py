@@ -232,7 +232,9 @@ def _inner_guess(samples: Array, points: Array) -> tuple[Array, Bools]:
     Returns:
         these (k, 3), and whether there is one (k,).
     """
+    if len(samples) < 3:
+        return points, np.zeros(len(points), dtype=np.bool_)
     gaps = norm(points[:, None] - samples[None])
     inner = (gaps[:, 1:-1] <= gaps[:, :-2]) & (gaps[:, 1:-1] <= gaps[:, 2:])
-    best = np.where(inner, gaps[:, 1:-1], np.inf).argmin(axis=1) if inner.size else np.zeros(0, int)
+    best = np.where(inner, gaps[:, 1:-1], np.inf).argmin(axis=1)
     return samples[1:-1][best], inner.any(axis=1)

@@ -17,6 +17,8 @@ SINGULAR = 1e-6
 HASTE = 8
 NEXT_TO_CONTACT = 1e-6
 """The part of a chord next to a point where two carriers touch that is looked at first."""
+LEVEL = 1e-13
+"""A point is neither ahead of another nor behind if it is so by this part of their distance."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
 
 
@@ -161,14 +163,18 @@ def advance(
 def from_end(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, end: float, p: Triple
 ) -> tuple[float, bool, float, Triple]:
-    """`advance` at an end, 0 or 1, of a chord, or beside it where the carriers touch there.
+    """`advance` at an end, 0 or 1, of a chord, or beside it where that tells nothing.
+
+    So it is where the carriers touch, and where p is neither ahead nor behind: it may be farthest.
 
     Returns:
         First u, then what `advance` returns.
     """
     u, off = end, NEXT_TO_CONTACT
     good, ahead, q = advance(table, a, b, samples, i, u, p)
-    while not good and off < 0.1:
+    x, y, z = p[0] - q[0], p[1] - q[1], p[2] - q[2]
+    level = LEVEL * sqrt(x * x + y * y + z * z)
+    while (not good or abs(ahead) <= level) and off < 0.1:
         u = off if end == 0.0 else 1.0 - off
         good, ahead, q = advance(table, a, b, samples, i, u, p)
         off *= 4.0
@@ -187,8 +193,8 @@ def between_samples(
     least, best = inf, q
     for step in range(60):
         u = high - behind * (high - low) / (behind - ahead)
-        if step > HASTE and step % 2 == 0:
-            # at a centre of curvature the function is so flat that secants creep
+        if (step > HASTE and step % 2 == 0) or not low < u < high:
+            # at a centre of curvature the function is so flat that secants creep, or do not move
             u = (low + high) / 2
         if not low < u < high:
             break

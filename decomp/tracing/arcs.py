@@ -1,6 +1,6 @@
 """The seams that leave a point of a reflexive axis or spine, from which whole arcs are as near.
 
-There a ball touches a face along an arc of a circle about the axis. The hull of the contacts'
+There a ball touches a face, or an edge, along an arc of a circle about the axis. The hull of the contacts'
 gradients, see `local`, then has no facets with points inside such an arc as corners, but the flat
 one that the circle spans: along its normal goes the axis, which is no seam. So seams leave along
 facets whose corners are ends of arcs and single contacts, if the arcs themselves lie inside.
@@ -8,15 +8,16 @@ facets whose corners are ends of arcs and single contacts, if the arcs themselve
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import Face, RegionBoundary
+from decomp.boundary.topology import Convexity, Face, RegionBoundary
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.carriers.reflexive import reflexive_gap
+from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.contacts import Contacts
 from decomp.tracing.fields import site_fields
@@ -59,6 +60,11 @@ class Arcs:
             for k, face in enumerate(boundary.faces)
             if isinstance(boundary.carriers[face.carrier], (Cylinder, Cone, Torus))
         ]
+        self._circles = [
+            (k, edge.curve)
+            for k, edge in enumerate(boundary.edges)
+            if isinstance(edge.curve, Circle) and edge.convexity is Convexity.REENTRANT
+        ]
         self._balls = [
             (k, face)
             for k, face in enumerate(boundary.faces)
@@ -76,14 +82,16 @@ class Arcs:
 
     def _of_arcs(self, touching: Contacts, point: Array) -> list[SeamRay]:
         faces = {k for k, face in self._round if self._osculates(face, touching.radius, point)}
-        if not faces:
+        edges = {k for k, it in self._circles if self._is_about(it, touching.radius, point)}
+        if not faces and not edges:
             return seam_rays(touching.gradients)
-        on = [self._is_on(sites, faces) for sites in touching.sites]
-        inner = [self._is_inside(sites, faces) for sites in touching.sites]
+        on = [self._is_on(sites, faces, edges) for sites in touching.sites]
+        inner = [self._is_inside(sites, faces, edges) for sites in touching.sites]
         corners = np.flatnonzero(~np.array(inner))
         if len(corners) < 3:
             return []
         arcs = self._arcs(touching, point, faces, on)
+        arcs = np.concatenate([arcs, self._circle_arcs(touching, point, edges)])
         found = []
         for ray in seam_rays(touching.gradients[corners]):
             chosen = tuple(int(corners[k]) for k in ray.contacts)
@@ -140,14 +148,39 @@ class Arcs:
         depth = abs(float(carrier.signed_distance(point)))
         return gap <= ON_LOCUS * self._size and abs(depth - radius) <= ON_LOCUS * self._size
 
-    def _is_on(self, sites: tuple[int, ...], faces: set[int]) -> bool:
-        """Whether a contact is a point of an arc, or its end."""
-        return any(faces & self._faces_at(site) for site in sites)
+    def _is_about(self, circle: Circle, radius: float, point: Array) -> bool:
+        """Whether a ball about a point touches all of a circle, which may be an edge in part."""
+        away = point - circle.centre
+        across = float(np.hypot(away @ circle.x, away @ circle.y))
+        depth = float(np.hypot(norm(away), circle.radius))
+        return max(across, abs(depth - radius)) <= ON_LOCUS * self._size
 
-    def _is_inside(self, sites: tuple[int, ...], faces: set[int]) -> bool:
+    def _is_on(
+        self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()
+    ) -> bool:
+        """Whether a contact is a point of an arc, or its end."""
+        return any(
+            faces & self._faces_at(site) or self._edges_at(site) & set(edges) for site in sites
+        )
+
+    def _is_inside(self, sites: tuple[int, ...], faces: set[int], edges: set[int]) -> bool:
         """Whether a contact is a point of an arc, and not its end."""
         own = [self._sites[k] for k in sites]
-        return all(s.kind is SiteKind.FACE and s.index in faces for s in own)
+        return all(
+            (s.kind is SiteKind.FACE and s.index in faces)
+            or (s.kind is SiteKind.EDGE and s.index in edges)
+            for s in own
+        )
+
+    def _edges_at(self, number: int) -> set[int]:
+        site = self._sites[number]
+        match site.kind:
+            case SiteKind.EDGE:
+                return {site.index}
+            case SiteKind.VERTEX:
+                return set(self._boundary.vertices[site.index].edges)
+            case SiteKind.FACE:
+                return set()
 
     def _faces_at(self, number: int) -> set[int]:
         site = self._sites[number]
@@ -174,6 +207,16 @@ class Arcs:
             true = np.abs(seen - (1 - TOWARDS) * touching.radius) <= ON_BOUNDARY * self._size
             found.append(-reach[true] / touching.radius)
         return np.concatenate([np.empty((0, 3)), *found])
+
+
+    def _circle_arcs(self, touching: Contacts, point: Array, edges: set[int]) -> Array:
+        """Gradients (k, 3) of points of edges that are touched as a whole."""
+        found = [np.empty((0, 3))]
+        for number in edges:
+            edge = self._boundary.edges[number]
+            along = np.linspace(edge.start, edge.end, TURNS)
+            found.append((point - edge.curve.point(edge.curve.wrapped(along))) / touching.radius)
+        return np.concatenate(found)
 
 
 def _turned(start: Array, axis: Array) -> Array:
