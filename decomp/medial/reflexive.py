@@ -11,6 +11,7 @@ that the carrier's nearest points are not on the boundary.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +28,8 @@ from decomp.vectors import Array, Bools, norm
 
 ZERO = 1e-10
 """Depths below this part of the region's size are zero."""
+SAME = 1e-9
+"""Reflexive points nearer to each other than this part of the region's size are one."""
 FINEST = 1e-5
 """Parts of a locus shorter than this part of the region's size can be missed."""
 AROUND = 72
@@ -96,7 +99,17 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
         if isinstance(curve, Circle):
             locus = circle_axis(curve, boundary.bounds)
             found.extend(_Search(index, incidence, (site,), locus).parts())
-    return found
+    return _distinct(found, SAME * boundary.diagonal)
+
+
+def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePart]:
+    """All parts, but of points in one place, such as a ball's centre on its edges' axes, the first."""
+    kept: list[ReflexivePart] = []
+    for part in parts:
+        points = [other.ends[0] for other in kept if other.dimension == 0]
+        if part.dimension or all(float(norm(part.ends[0] - p)) > within for p in points):
+            kept.append(part)
+    return kept
 
 
 def _centre(

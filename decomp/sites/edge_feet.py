@@ -17,6 +17,8 @@ SINGULAR = 1e-6
 HASTE = 8
 NEXT_TO_CONTACT = 1e-6
 """The part of a chord next to a point where two carriers touch that is looked at first."""
+BESIDE = 1e-3
+"""How far beside a farthest point nearest ones are looked for, as a part of the way to a sample."""
 LEVEL = 1e-13
 """A point is neither ahead of another nor behind if it is so by this part of their distance."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
@@ -160,6 +162,13 @@ def advance(
 
 
 @inner
+def away(p: Triple, q: Triple) -> float:
+    """The distance between two points."""
+    x, y, z = p[0] - q[0], p[1] - q[1], p[2] - q[2]
+    return sqrt(x * x + y * y + z * z)
+
+
+@inner
 def from_end(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, end: float, p: Triple
 ) -> tuple[float, bool, float, Triple]:
@@ -172,8 +181,7 @@ def from_end(
     """
     u, off = end, NEXT_TO_CONTACT
     good, ahead, q = advance(table, a, b, samples, i, u, p)
-    x, y, z = p[0] - q[0], p[1] - q[1], p[2] - q[2]
-    level = LEVEL * sqrt(x * x + y * y + z * z)
+    level = LEVEL * away(p, q)
     while (not good or abs(ahead) <= level) and off < 0.1:
         u = off if end == 0.0 else 1.0 - off
         good, ahead, q = advance(table, a, b, samples, i, u, p)
@@ -182,15 +190,28 @@ def from_end(
 
 
 @inner
-def between_samples(
-    table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
-) -> tuple[bool, Triple]:
-    """The nearest point strictly between two samples, if there is one (regula falsi, halving)."""
-    low, good, ahead, q = from_end(table, a, b, samples, i, 0.0, p)
-    high, good2, behind, _ = from_end(table, a, b, samples, i, 1.0, p)
-    if not (good and good2 and ahead > 0.0 and behind < 0.0):
-        return False, q
-    least, best = inf, q
+def level_point(
+    table: CarrierTable,
+    a: int,
+    b: int,
+    samples: Array,
+    i: int,
+    span: tuple[float, float],
+    ends: tuple[float, float],
+    p: Triple,
+) -> tuple[bool, float, Triple]:
+    """Where p is neither ahead nor behind, between two places where it is (regula falsi, halving).
+
+    Args:
+        table, a, b, samples, i, p: as in `advance`.
+        span: u of the places.
+        ends: how far p is ahead at the first, above 0, and at the second, below 0.
+
+    Returns:
+        whether there is such a point, u, and the point.
+    """
+    (low, high), (ahead, behind) = span, ends
+    least, at, best = inf, low, p
     for step in range(60):
         u = high - behind * (high - low) / (behind - ahead)
         if (step > HASTE and step % 2 == 0) or not low < u < high:
@@ -200,10 +221,10 @@ def between_samples(
             break
         good, value, q = advance(table, a, b, samples, i, u, p)
         if not good:
-            return False, q
+            return False, u, q
         # the last point need not be the best one: it can be a half
         if abs(value) < least:
-            least, best = abs(value), q
+            least, at, best = abs(value), u, q
         if value == 0.0:
             break
         if value > 0.0:
@@ -214,7 +235,38 @@ def between_samples(
             high, behind, ahead = u, value, ahead * (1.0 - factor)
         if high - low < 1e-14:
             break
-    return True, best
+    return least < inf, at, best
+
+
+@inner
+def between_samples(
+    table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
+) -> tuple[bool, Triple]:
+    """The nearest point strictly between two samples, if there is one.
+
+    Where the curve is bent most about p, the point found first can be the farthest between two that
+    are nearest: then these are looked for on both sides of it.
+    """
+    low, good, ahead, q = from_end(table, a, b, samples, i, 0.0, p)
+    high, good2, behind, r = from_end(table, a, b, samples, i, 1.0, p)
+    if not (good and good2 and ahead > 0.0 and behind < 0.0):
+        return False, q
+    nearer = min(away(p, q), away(p, r))
+    found, u, best = level_point(table, a, b, samples, i, (low, high), (ahead, behind), p)
+    if not found or away(p, best) <= nearer:
+        return found, best
+    least = inf
+    for side in range(2):
+        v = u - BESIDE * (u - low) if side == 0 else u + BESIDE * (high - u)
+        good, value, _ = advance(table, a, b, samples, i, v, p)
+        span = (low, v) if side == 0 else (v, high)
+        ends = (ahead, value) if side == 0 else (value, behind)
+        if not (good and ends[0] > 0.0 and ends[1] < 0.0):
+            continue
+        good, _, q = level_point(table, a, b, samples, i, span, ends, p)
+        if good and away(p, q) < least:
+            least, best = away(p, q), q
+    return least < inf, best
 
 
 @inner
@@ -243,8 +295,7 @@ def sampled_foot(
             continue
         found, q = between_samples(table, carriers[0], carriers[1], samples, i, p)
         if found:
-            rx, ry, rz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
-            away = sqrt(rx * rx + ry * ry + rz * rz)
-            if away < best:
-                best, x, y, z, which = away, q[0], q[1], q[2], -1
+            distance = away(p, q)
+            if distance < best:
+                best, x, y, z, which = distance, q[0], q[1], q[2], -1
     return x, y, z, which

@@ -100,6 +100,23 @@ class Arcs:
                 found.append(replace(ray, contacts=chosen))
         return found
 
+    def centre(self, last: State) -> Array | None:
+        """The centre of a ball's face that a seam has come to, None if it has come to none.
+
+        Close to it all edges of the face are as far but for rounding.
+
+        Args:
+            last: of the seam.
+        """
+        for number, face in self._balls:
+            carrier = self._boundary.carriers[face.carrier]
+            gap = float(reflexive_gap(carrier, face.outward, last.point[None])[0])
+            of_face = all(number in self._faces_at(site) for site in last.sites)
+            if gap <= NEAR * self._size and of_face:
+                assert isinstance(carrier, Sphere)
+                return carrier.centre
+        return None
+
     def on_axis(self, last: State, intruder: int, near: Array) -> Array | None:
         """The point where a seam meets the locus of a face that bounds some of its edges.
 

@@ -211,7 +211,7 @@ class _Grower:
 
     def _start_inside(self, state: State) -> None:
         """Trace the seam through a point, unless sheets only meet there in a reflexive point."""
-        if self._points.on_locus(state.sites, state.point):
+        if self._points.on_locus(state.sites, state.point) or self._nodes.is_centre(state):
             return
         touching = self._points.contacts.at(state.point, SLACK * self._size)
         if len(touching.feet) > len(state.sites):
@@ -240,7 +240,7 @@ class _Grower:
         if traced.end is SeamEnd.BOUNDARY:
             node = self._nodes.on_boundary(last)
         elif traced.end in (SeamEnd.SPLIT, SeamEnd.FIN):
-            node = self._nodes.at(last.point, ending=True)
+            node = self._nodes.end(last)
         else:
             node = self._nodes.junction(last, traced.intruder, traced.foot)
         self._nodes.take(node, last, number)

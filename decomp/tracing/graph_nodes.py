@@ -88,6 +88,15 @@ class GraphNodes:
         on_axis = self._arcs.on_axis(last, intruder, point)
         return self.at(point if on_axis is None else on_axis)
 
+    def end(self, last: State) -> int:
+        """The node at which a seam ends by itself."""
+        centre = self._arcs.centre(last)
+        return self.at(last.point if centre is None else centre, ending=True)
+
+    def is_centre(self, state: State) -> bool:
+        """Whether a point is the centre of a ball's face at which all its contacts are."""
+        return self._arcs.centre(state) is not None
+
     def at(self, point: Array, ending: bool = False) -> int:
         """The node at a point, a new one unless it is known.
 

@@ -8,10 +8,12 @@ import numpy as np
 
 from decomp.tracing.seam_graph_model import Node, Seam
 from decomp.tracing.seam_states import Traced
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Bools, norm
 
 AT_NODE = 1e-9
 """Points nearer to a node than this part of the size are replaced by it."""
+BESIDE, MOST = 2.0, 1e-5
+"""Likewise those nearer than this many times the way from a seam's last point, up to this part."""
 
 
 def seam_between(
@@ -19,8 +21,10 @@ def seam_between(
 ) -> Seam:
     """A seam with its nodes' points put at its ends."""
     plain = seam_of(traced, ends)
-    near = np.minimum(norm(plain.points - first.point), norm(plain.points - last.point))
-    inner = np.flatnonzero(near > AT_NODE * size)
+    inner = np.flatnonzero(
+        _clear_of(plain.points, first, plain.points[0], size)
+        & _clear_of(plain.points, last, plain.points[-1], size)
+    )
     if not len(inner):
         inner = np.array([len(plain.points) // 2])
     a, b = inner[0], inner[-1]
@@ -37,6 +41,15 @@ def seam_between(
         ),
         ends,
     )
+
+
+def _clear_of(points: Array, node: Node, end: Array, size: float) -> Bools:
+    """Which points (k, 3) of a seam are away from the node at an end (3,) of it.
+
+    Where rounding has ended it beside the node, those as near as this end are not.
+    """
+    reach = max(AT_NODE * size, BESIDE * float(norm(node.point - end)))
+    return np.asarray(norm(points - node.point) > min(reach, MOST * size))
 
 
 def joined(back: Traced, forward: Traced) -> Traced:
