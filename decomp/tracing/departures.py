@@ -17,12 +17,14 @@ from itertools import combinations
 
 import numpy as np
 
+from decomp.curves.line import Line
 from decomp.errors import GeometryError
+from decomp.sites.site import SiteKind
 from decomp.tracing.contacts import EXACT, Contacts
 from decomp.tracing.fields import support_fields
 from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
-from decomp.tracing.seam_points import SeamPoints
+from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, Ints, frame, norm, place
 
@@ -84,12 +86,44 @@ def _at(
         state = points.settled(start, feet[chosen], ray.direction)
         if state is None or not _holds_before(points, point, state, ray):
             return None
-        found.append((tuple(contacts[chosen].tolist()), state))
+        leaving = tuple(contacts[chosen].tolist())
+        unfolded = _unfolded(points, touching, ray, leaving, state)
+        unfolds |= unfolded is not None
+        found.append(unfolded or (leaving, state))
     if unfolds:
         whole = {c for corners, _ in found for c in corners} == set(contacts.tolist())
     else:
         whole = sum(len(c) - 2 for c, _ in found) == len(contacts) - 2
     return found if whole else None
+
+
+def _unfolded(
+    points: SeamPoints, touching: Contacts, ray: SeamRay, leaving: tuple[int, ...], state: State
+) -> tuple[tuple[int, ...], State] | None:
+    """A seam's contacts and first point if its foot on a bent edge unfolds into two on this edge.
+
+    At p, an end of the edge's sheet with itself, both are one, from which neither is found alone.
+    """
+    sites = [points.index.sites[k] for k in state.sites]
+    edges = [points.boundary.edges[s.index] for s in sites if s.kind is SiteKind.EDGE]
+    if all(isinstance(edge.curve, Line) for edge in edges):
+        return None
+    ahead = points.contacts.at(state.point, SLACK * points.size)
+    if len(ahead.feet) != len(leaving) + 1:
+        return None
+    nearest = norm(ahead.feet[:, None] - touching.feet[None, list(leaving)]).argmin(axis=1)
+    order = _around(ray.direction, state.point, ahead.feet)
+    whole = points.settled(state.point, ahead.feet[order], ray.direction)
+    if whole is None or set(nearest.tolist()) != set(range(len(leaving))):
+        return None
+    return tuple(leaving[k] for k in nearest[order].tolist()), whole
+
+
+def _around(direction: Array, point: Array, feet: Array) -> Ints:
+    """The cyclic order of feet (m, 3) of a point, seen along a direction."""
+    x, y = frame(direction)
+    away = feet - point
+    return np.argsort(np.arctan2(-away @ y, -away @ x))
 
 
 def _holds_before(points: SeamPoints, point: Array, state: State, ray: SeamRay) -> bool:
@@ -122,10 +156,7 @@ def _local(
             kept.append(int(k))
     if set(contacts[kept].tolist()) != set(ray.contacts):
         return None
-    x, y = frame(ray.direction)
-    away = feet[kept] - ahead
-    order = np.argsort(np.arctan2(-away @ y, -away @ x))
-    rows = np.array(kept)[order]
+    rows = np.array(kept)[_around(ray.direction, ahead, feet[kept])]
     return contacts[rows], feet[rows], distance[rows]
 
 

@@ -217,18 +217,25 @@ class _Grower:
         if len(touching.feet) > len(state.sites):
             whole = self._points.settled(state.point, touching.feet, state.tangent)
             if whole is None:
-                self._nodes.at(state.point)
-                self.grow()
+                self._grow_from(state.point)
                 return
             state = whole
-        number = self._new_number()
         forward = self._trace(state)
+        if forward.end is SeamEnd.SPLIT and (forward.last.point == state.point).all():
+            self._grow_from(state.point)
+            return
+        number = self._new_number()
         if forward.end is SeamEnd.CLOSED:
             self._seams.add(number, seam_of(forward, None))
             return
         back = self._trace(state.turned())
         ends = (self._end(back, number), self._end(forward, number))
         self._seams.add(number, self._between(joined(back, forward), ends))
+        self.grow()
+
+    def _grow_from(self, point: Array) -> None:
+        """Trace the seams that leave a point at which more meet than its seed has contacts."""
+        self._nodes.at(point)
         self.grow()
 
     def _trace(self, start: State) -> Traced:
