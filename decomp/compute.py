@@ -90,11 +90,11 @@ class _Attempt:
             whole = Whole(geometry, self._relative, fineness, curves, draft)
             error = volume_error(geometry, draft.surface, whole.complex)
             if error > VOLUME and left:
-                fineness = finer(fineness, error)
+                fineness = finer(fineness, error / VOLUME)
                 continue
             self._tell("measuring", 0.9)
             result = whole.result()
-            if not result.only_volume:
+            if not result.excess:
                 break
-            fineness = finer(fineness, result.volume_error)
+            fineness = finer(fineness, result.excess)
         return result.skeleton, result.failures

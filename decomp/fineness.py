@@ -31,12 +31,12 @@ def fine_enough(geometry: Geometry, relative: float, share: float) -> float:
     if volume_error(geometry, surface, surface.complex) <= SPARE * VOLUME:
         return relative
     error = volume_error(geometry, surface, refine(surface.complex, tolerance))
-    return finer(relative, error) if error > VOLUME else relative
+    return finer(relative, error / VOLUME) if error > VOLUME else relative
 
 
-def finer(relative: float, error: float) -> float:
-    """The chord tolerance after one with which a volume's error has come out too large."""
-    return relative * SPARE * VOLUME / error
+def finer(relative: float, excess: float) -> float:
+    """The chord tolerance after one with which an error is so many times as large as allowed."""
+    return relative * SPARE / excess
 
 
 def volume_error(geometry: Geometry, surface: BoundaryMesh, mesh: Complex) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.certificate import Certified, certified, explained, shortcomings
+from decomp.certificate.certificate import VOLUME, Certified, certified, explained, shortcomings
 from decomp.certificate.evidence import Evidence
 from decomp.complex.model import LineKind
 from decomp.complex.refine import refined
@@ -29,14 +29,13 @@ class Result:
     Args:
         skeleton: None if it fails its certificate.
         failures: why.
-        only_volume: whether only the cells' volumes are too far off.
-        volume_error: the largest.
+        excess: how many times what is allowed the largest error of a volume or chord is; 0 where
+            none is too large, or more than they fails.
     """
 
     skeleton: Skeleton | None
     failures: list[str]
-    only_volume: bool
-    volume_error: float
+    excess: float
 
 
 class Whole:
@@ -79,9 +78,13 @@ class Whole:
         return Result(
             None if failures else made,
             failures,
-            short == {"volume_error"},
-            max(region.certificate.volume_error for region in regions),
+            self._excess(regions) if short and short <= {"volume_error", "chord_error"} else 0.0,
         )
+
+    def _excess(self, regions: Sequence[RegionSkeleton]) -> float:
+        found = [region.certificate for region in regions]
+        volume = max(one.volume_error for one in found) / VOLUME
+        return max(volume, *(one.chord_error / self._relative for one in found))
 
     def _radius(self) -> Array:
         points = self.complex.points

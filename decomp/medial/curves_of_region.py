@@ -16,7 +16,7 @@ from decomp.curves.circle import Circle
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
 from decomp.medial.incidence import ANGLE, Incidence
 from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
-from decomp.medial.pieces import CurvePiece
+from decomp.medial.pieces import CurvePiece, middle_row
 from decomp.medial.reflexive import ReflexivePart
 from decomp.medial.trims import TrimPiece, TrimScanner, on_locus, solve_radius
 from decomp.sites import SiteIndex
@@ -73,8 +73,7 @@ def _seam_piece(
     curve = SeamCurve(incidence, sites, points, traced)
     while len(points) < 4:
         points = _denser(curve, points)
-    k = len(points) // 2
-    middle = points[k]
+    middle = points[middle_row(points)]
     at = curve.feet_at(middle[None])[0]
     contacts = []
     for site, foot in zip(sites, at, strict=True):
@@ -229,7 +228,7 @@ def _end(incidence: Incidence, curve: TrimCurve, stop: float, guess: float) -> A
         turned = float(norm(incidence.inward(face, q)[0] - n[0]))
         if turned <= ANGLE and abs(radius - guess) <= AT_LOCUS * guess:
             return np.asarray(q[0] + radius * n[0])
-    return curve.at(at, np.array([guess]))[0]
+    return np.asarray(curve.at(at, np.array([guess]))[0])
 
 
 def _face_radius(incidence: Incidence, face: int, foot: Array) -> float:

@@ -237,4 +237,4 @@ def _inner_guess(samples: Array, points: Array) -> tuple[Array, Bools]:
     gaps = norm(points[:, None] - samples[None])
     inner = (gaps[:, 1:-1] <= gaps[:, :-2]) & (gaps[:, 1:-1] <= gaps[:, 2:])
     best = np.where(inner, gaps[:, 1:-1], np.inf).argmin(axis=1)
-    return samples[1:-1][best], inner.any(axis=1)
+    return samples[1:-1][best], np.asarray(inner.any(axis=1))

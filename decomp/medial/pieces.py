@@ -53,12 +53,21 @@ class CurvePiece:
     @property
     def middle(self) -> Array:
         """A point (3,) in its inside."""
-        return np.asarray(self.points[len(self.points) // 2])
+        return np.asarray(self.points[middle_row(self.points)])
 
     @property
     def length(self) -> float:
         """Length of the polyline."""
         return float(norm(np.diff(self.points, axis=0)).sum())
+
+
+def middle_row(points: Array) -> int:
+    """Which inner one of points (n, 3) along a curve is next to half its length.
+
+    They can crowd at an end, where what a ball touches is not told well.
+    """
+    along = np.cumsum(norm(np.diff(points, axis=0)))
+    return 1 + int(np.argmin(np.abs(along[:-1] - along[-1] / 2)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ import numpy as np
 from decomp.complex.model import LineKind
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
-from decomp.medial.pieces import CurvePiece
+from decomp.medial.pieces import CurvePiece, middle_row
 from decomp.sites import SiteIndex
 from decomp.sites.occupancy import Labels
 from decomp.tracing.queries import region_queries
@@ -61,7 +61,7 @@ def _pair(a: int, b: int) -> Pair:
 
 
 def _tangent(piece: CurvePiece) -> Array:
-    k = len(piece.points) // 2
+    k = middle_row(piece.points)
     along = piece.points[k + 1] - piece.points[k - 1]
     length = float(norm(along))
     if not length > 0:

@@ -1,9 +1,9 @@
 """The seams that leave a point of a reflexive axis or spine, from which whole arcs are as near.
 
-There a ball touches a face, or an edge, along an arc of a circle about the axis. The hull of the contacts'
-gradients, see `local`, then has no facets with points inside such an arc as corners, but the flat
-one that the circle spans: along its normal goes the axis, which is no seam. So seams leave along
-facets whose corners are ends of arcs and single contacts, if the arcs themselves lie inside.
+There a ball touches a face, or an edge, along an arc of a circle about the axis. The hull of the
+contacts' gradients, see `local`, then has no facets with points inside such an arc as corners, but
+the flat one that the circle spans: along its normal goes the axis, which is no seam. So seams leave
+along facets whose corners are ends of arcs and single contacts, if the arcs themselves lie inside.
 """
 
 from __future__ import annotations
@@ -172,9 +172,7 @@ class Arcs:
         depth = float(np.hypot(norm(away), circle.radius))
         return max(across, abs(depth - radius)) <= ON_LOCUS * self._size
 
-    def _is_on(
-        self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()
-    ) -> bool:
+    def _is_on(self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()) -> bool:
         """Whether a contact is a point of an arc, or its end."""
         return any(
             faces & self._faces_at(site) or self._edges_at(site) & set(edges) for site in sites
@@ -224,7 +222,6 @@ class Arcs:
             true = np.abs(seen - (1 - TOWARDS) * touching.radius) <= ON_BOUNDARY * self._size
             found.append(-reach[true] / touching.radius)
         return np.concatenate([np.empty((0, 3)), *found])
-
 
     def _circle_arcs(self, touching: Contacts, point: Array, edges: set[int]) -> Array:
         """Gradients (k, 3) of points of edges that are touched as a whole."""

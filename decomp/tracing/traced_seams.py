@@ -10,10 +10,8 @@ from decomp.tracing.seam_graph_model import Node, Seam
 from decomp.tracing.seam_states import Traced
 from decomp.vectors import Array, Bools, norm
 
-AT_NODE = 1e-9
-"""Points nearer to a node than this part of the size are replaced by it."""
-BESIDE, MOST = 2.0, 1e-5
-"""Likewise those nearer than this many times the way from a seam's last point, up to this part."""
+AT_NODE = 1e-6
+"""Points nearer to a node than this part of the size, and those behind them, give way to it."""
 
 
 def seam_between(
@@ -21,10 +19,14 @@ def seam_between(
 ) -> Seam:
     """A seam with its nodes' points put at its ends."""
     plain = seam_of(traced, ends)
-    inner = np.flatnonzero(
-        _clear_of(plain.points, first, plain.points[0], size)
-        & _clear_of(plain.points, last, plain.points[-1], size)
+    half = len(plain.points) // 2
+    clear = np.concatenate(
+        [
+            _before(plain.points[:half][::-1], first, size)[::-1],
+            _before(plain.points[half:], last, size),
+        ]
     )
+    inner = np.flatnonzero(clear)
     if not len(inner):
         inner = np.array([len(plain.points) // 2])
     a, b = inner[0], inner[-1]
@@ -43,13 +45,14 @@ def seam_between(
     )
 
 
-def _clear_of(points: Array, node: Node, end: Array, size: float) -> Bools:
-    """Which points (k, 3) of a seam are away from the node at an end (3,) of it.
+def _before(points: Array, node: Node, size: float) -> Bools:
+    """Which points (k, 3) of a seam come before the node at its end.
 
-    Where rounding has ended it beside the node, those as near as this end are not.
+    Where contacts run together a seam is followed past its end a little, or rounding moves it to
+    and fro beside the node.
     """
-    reach = max(AT_NODE * size, BESIDE * float(norm(node.point - end)))
-    return np.asarray(norm(points - node.point) > min(reach, MOST * size))
+    near = norm(points - node.point) <= AT_NODE * size
+    return np.asarray(np.cumsum(near) == 0)
 
 
 def joined(back: Traced, forward: Traced) -> Traced:
