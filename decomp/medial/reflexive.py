@@ -103,7 +103,7 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
 
 
 def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePart]:
-    """All parts, but only the first of points in one place: a ball's centre is on its edges' axes."""
+    """All parts, but of points in one place (a ball's centre is on its edges' axes) the first."""
     kept: list[ReflexivePart] = []
     for part in parts:
         points = [other.ends[0] for other in kept if other.dimension == 0]

@@ -19,6 +19,10 @@ NEXT_TO_CONTACT = 1e-6
 """The part of a chord next to a point where two carriers touch that is looked at first."""
 BESIDE = 1e-3
 """How far beside a farthest point nearest ones are looked for, as a part of the way to a sample."""
+FLAT = 0.2
+"""Less than this part of a chord p goes from ahead to behind along it, close to centres."""
+PARTS = 8
+"""Into so many the chord is then cut."""
 LEVEL = 1e-13
 """A point is neither ahead of another nor behind if it is so by this part of their distance."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
@@ -239,33 +243,68 @@ def level_point(
 
 
 @inner
+def nearest_level(
+    table: CarrierTable,
+    a: int,
+    b: int,
+    samples: Array,
+    i: int,
+    span: tuple[float, float],
+    ends: tuple[float, float],
+    p: Triple,
+) -> tuple[bool, Triple]:
+    """The nearest point between two places as in `level_point`.
+
+    The one found first can be the farthest between two that are nearest: p is behind before it.
+    Then these are looked for on both sides of it.
+    """
+    found, u, best = level_point(table, a, b, samples, i, span, ends, p)
+    if not found:
+        return False, best
+    before, after = u - BESIDE * (u - span[0]), u + BESIDE * (span[1] - u)
+    good, value, _ = advance(table, a, b, samples, i, before, p)
+    if not (good and value < 0.0):
+        return True, best
+    found, _, best = level_point(table, a, b, samples, i, (span[0], before), (ends[0], value), p)
+    good, value, _ = advance(table, a, b, samples, i, after, p)
+    if good and value > 0.0:
+        good, _, q = level_point(table, a, b, samples, i, (after, span[1]), (value, ends[1]), p)
+        if good and (not found or away(p, q) < away(p, best)):
+            found, best = True, q
+    return found, best
+
+
+@inner
 def between_samples(
     table: CarrierTable, a: int, b: int, samples: Array, i: int, p: Triple
 ) -> tuple[bool, Triple]:
     """The nearest point strictly between two samples, if there is one.
 
-    Where the curve is bent most about p, the point found first can be the farthest between two that
-    are nearest: then these are looked for on both sides of it.
+    Close to a centre of curvature there can be several, so they are looked for in parts.
     """
     low, good, ahead, q = from_end(table, a, b, samples, i, 0.0, p)
     high, good2, behind, r = from_end(table, a, b, samples, i, 1.0, p)
-    if not (good and good2 and ahead > 0.0 and behind < 0.0):
+    if not (good and good2):
         return False, q
-    nearer = min(away(p, q), away(p, r))
-    found, u, best = level_point(table, a, b, samples, i, (low, high), (ahead, behind), p)
-    if not found or away(p, best) <= nearer:
-        return found, best
-    least = inf
-    for side in range(2):
-        v = u - BESIDE * (u - low) if side == 0 else u + BESIDE * (high - u)
-        good, value, _ = advance(table, a, b, samples, i, v, p)
-        span = (low, v) if side == 0 else (v, high)
-        ends = (ahead, value) if side == 0 else (value, behind)
-        if not (good and ends[0] > 0.0 and ends[1] < 0.0):
-            continue
-        good, _, q = level_point(table, a, b, samples, i, span, ends, p)
-        if good and away(p, q) < least:
-            least, best = away(p, q), q
+    if ahead - behind >= FLAT * away(q, r):
+        if not (ahead > 0.0 and behind < 0.0):
+            return False, q
+        return nearest_level(table, a, b, samples, i, (low, high), (ahead, behind), p)
+    least, best, v, value = inf, q, low, ahead
+    for k in range(1, PARTS + 1):
+        u, next_value = high, behind
+        if k < PARTS:
+            u = low + k * (high - low) / PARTS
+            good, next_value, _ = advance(table, a, b, samples, i, u, p)
+            if not good:
+                return False, q
+        # where p is neither ahead nor behind it is both, seen from the two sides
+        if value >= 0.0 and next_value <= 0.0:
+            ends = (max(value, TINY), min(next_value, -TINY))
+            found, q = nearest_level(table, a, b, samples, i, (v, u), ends, p)
+            if found and away(p, q) < least:
+                least, best = away(p, q), q
+        v, value = u, next_value
     return least < inf, best
 
 

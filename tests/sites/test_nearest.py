@@ -11,7 +11,7 @@ from hypothesis import given, reject, settings
 from scipy.spatial import cKDTree
 
 import decomp
-from decomp.csg.primitives import Block, Cylinder, Sphere
+from decomp.csg.primitives import Block, Cone, Cylinder, Sphere
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError, InputError
 from decomp.geometry import Geometry
@@ -242,3 +242,22 @@ def test_threads_do_not_disturb_each_other() -> None:
     for a, b in zip(alone, together, strict=True):
         np.testing.assert_array_equal(a.site, b.site)
         np.testing.assert_array_equal(a.foot, b.foot)
+
+
+@pytest.mark.parametrize("name", ["cone in a wall", "cone beside a wall"])
+def test_feet_of_points_about_which_an_edge_is_bent_most(name: str) -> None:
+    """Points of a cone's axis are as near to a hyperbola's two arms as to the cone.
+
+    The apex between them is a sample of the edge in one of the models and between two in the other.
+    """
+    reach = {"cone in a wall": 5.0, "cone beside a wall": 4.83}[name]
+    cone = Cone((4.5, -0.1, 1.2), 0.8, (4.5, 2.9, 1.2), 0.3, name="cone")
+    part = decomp.Geometry(Block((0, 0, 0), (reach, 4, 2.4), name="block") | cone)
+    slope = 0.5 / 3
+    apex_side = 0.8 / slope - 0.1
+    sine = slope / np.hypot(1, slope)
+    nearest = (reach - 4.5) / slope  # of the hyperbola's apex, along the axis from the cone's
+    along = nearest * (1 + slope**2) * (1 + np.geomspace(1e-7, 0.05, 60))
+    points = np.stack([np.full(60, 4.5), apex_side - along, np.full(60, 1.2)], axis=1)
+    found = part.nearest(points)
+    np.testing.assert_allclose(found.distance, along * sine, rtol=0, atol=1e-13 * part.diagonal)

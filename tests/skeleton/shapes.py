@@ -71,6 +71,27 @@ def with_ball(centre: Point) -> Solid:
     return Block((0, 0, 0), (4, 3, 2.2), name="base") | Sphere(centre, 0.7, name="ball")
 
 
+def rod_and_rib() -> Solid:
+    """A rod that sticks out of a block through three faces, and a rib that passes through both."""
+    rod = Cylinder((0.5, 0.35, 1.4), (4.6, 0.35, 1.4), 0.8, name="rod")
+    rib = Block((2, -0.4, 0), (2.7, 1.4, 1.1), name="rib")
+    return Block((0, 0, 0), (4.2, 2, 2.1), name="block") | rod | rib
+
+
+def bored_corner() -> Solid:
+    """A ball on an edge of a block and over the mouth of a tapered bore."""
+    bore = Cone((0.5, 2.6, -2.3), 0.7, (0.5, 2.6, 1.9), 0.3, name="bore")
+    block = Block((0, 0, 0), (4, 3.3, 3.6), name="block")
+    return (block - bore) | Sphere((-0.1, 3.4, -0.3), 0.9, name="ball")
+
+
+def cone_in_a_wall() -> Solid:
+    """A cone half out of a block, its axis in the block's mid-plane: its edges are hyperbolas."""
+    return Block((0, 0, 0), (5, 4, 2.4), name="block") | Cone(
+        (4.5, -0.1, 1.2), 0.8, (4.5, 2.9, 1.2), 0.3, name="cone"
+    )
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -95,4 +116,7 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "ball on an edge": lambda: with_ball((2, 2.7, 2)),
     "bar in a wall": lambda: with_boss(3, 2.2, (-1, 1.2, 0.3), (5, 1.2, 0.3), 0.6),
     "grooved shaft": grooved,
+    "rod and rib": rod_and_rib,
+    "bored corner": bored_corner,
+    "cone in a wall": cone_in_a_wall,
 }
