@@ -14,15 +14,18 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.contacts import Contacts
 from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import RegionQueries
-from decomp.vectors import Array, Ints, frame
+from decomp.vectors import Array, Ints, frame, norm
 
 SAMPLES = 257
 """Points of every edge of the face."""
+NEXT = 6.0
+"""Points of one edge are two contacts if they are so many samples apart."""
 ON_BOUNDARY = 1e-9
 ALIKE = 0.9995
 """Cosine of the angle between directions of facets with the same kinds of corners that are one."""
@@ -58,10 +61,10 @@ def patch_rays(
         return touching, []
     chosen: list[tuple[frozenset[int], Array, Ints]] = []
     for simplex, equation in zip(hull.simplices, hull.equations, strict=True):
-        one, two, three = (corners.kinds[k] for k in simplex)
-        if one & two or two & three or three & one:
+        if corners.are_alike(simplex):
             continue
-        way, kinds = -equation[:3], one | two | three
+        way = -equation[:3]
+        kinds = frozenset[int]().union(*(corners.kinds[k] for k in simplex))
         # the middle of the cap is on the face in patches, farther away in gaps
         towards = centre + TOWARDS * touching.radius * way
         reach = float(queries.nearest(towards[None]).distance[0])
@@ -109,12 +112,17 @@ class _Corners:
         feet = [touching.feet[list(single)]]
         self.kinds = [frozenset({-1 - k}) for k in single]
         self.groups = [touching.sites[k] for k in single]
+        self._spacing: dict[int, float] = {}
+        self._circles = frozenset[int]()
         for k, edge in enumerate(boundary.edges):
             own = number.get((SiteKind.EDGE, k))
             if own is None or not faces & set(edge.faces) or edge.convexity is Convexity.CONVEX:
                 continue
             along = np.linspace(edge.start, edge.end, SAMPLES)
             feet.append(edge.curve.point(edge.curve.wrapped(along)))
+            self._spacing[own] = float(norm(np.diff(feet[-1], axis=0)).max())
+            if isinstance(edge.curve, Circle):
+                self._circles |= {own}
             self.kinds += [frozenset({own})] * SAMPLES
             self.groups += [(own,)] * SAMPLES
             for end, vertex in zip((-SAMPLES, -1), edge.vertices or (), strict=False):
@@ -123,3 +131,17 @@ class _Corners:
                 corner = number.get((SiteKind.VERTEX, vertex))
                 self.groups[end] = (own,) if corner is None else (corner, own)
         self.feet = np.concatenate(feet)
+
+    def are_alike(self, corners: Ints) -> bool:
+        """Whether three points are not as many contacts: two next to each other on one edge.
+
+        All three of a circle are alike, too.
+        """
+        kinds = [self.kinds[k] for k in corners]
+        if kinds[0] & kinds[1] & kinds[2] & self._circles:
+            return True
+        for i, j in ((0, 1), (1, 2), (2, 0)):
+            gap = float(norm(self.feet[corners[i]] - self.feet[corners[j]]))
+            if any(gap <= NEXT * self._spacing[edge] for edge in kinds[i] & kinds[j]):
+                return True
+        return False
