@@ -116,6 +116,10 @@ class SeamTracer:
             crossed = self._stops.crossing(stretch, count, contact)
             if crossed is None:
                 crossed = self._stops.vertex(stretch, count) or self._stops.landing(stretch, count)
+                if crossed is None and why == INTRUDED:
+                    # not over the edge: two sites that meet there, each with a foot beside it
+                    runs.append(stretch.run(count))
+                    return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
                 if crossed is None:
                     near = place(stretch.track.points[count - 1])
                     raise GeometryError(f"a seam cannot be followed past the trim near {near}")
