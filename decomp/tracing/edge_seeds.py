@@ -1,4 +1,4 @@
-"""Points on seams, found from the footprints of curved reentrant edges.
+"""Points on seams, found from the footprints of reentrant edges.
 
 A ball that touches a reentrant edge is known by the place t along the edge and the direction of its
 centre, between the inward normals of the edge's two faces. Where its far foot jumps between two
@@ -22,6 +22,8 @@ from decomp.vectors import Array, Bools, cross, dot, norm
 
 ALONG, ACROSS = 60, 15
 """Balls along and across an edge's footprint for every `PER` samples of the boundary."""
+PLAIN = 0.4
+"""So many times as many both ways where the edge is straight or an arc of a circle."""
 PER = 2000
 BISECTIONS = 24
 STEADY = 4.0
@@ -60,7 +62,7 @@ class EdgeFan:
 def edge_jumps(
     boundary: RegionBoundary, queries: RegionQueries, samples: int, rng: np.random.Generator
 ) -> tuple[Array, Array]:
-    """Points (k, 3) close to seams and three of their feet (k, 3, 3), as seen from curved edges.
+    """Points (k, 3) close to seams and three of their feet (k, 3, 3), as seen from reentrant edges.
 
     Args:
         boundary: of the region.
@@ -70,7 +72,7 @@ def edge_jumps(
     """
     points, feet = [np.empty((0, 3))], [np.empty((0, 3, 3))]
     for edge in boundary.edges:
-        if edge.convexity is Convexity.REENTRANT and not isinstance(edge.curve, (Line, Circle)):
+        if edge.convexity is Convexity.REENTRANT:
             found = _jumps(EdgeFan(boundary, edge), queries, samples, rng)
             points.append(found[0])
             feet.append(found[1])
@@ -89,6 +91,8 @@ def _jumps(
         return found, feet
 
     finer = np.sqrt(samples / PER)
+    if isinstance(fan.edge.curve, (Line, Circle)):
+        finer *= PLAIN
     shape = (max(4, int(ALONG * finer)), max(3, int(ACROSS * finer)))
     cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1)
     spots = ((cells + 0.2 + 0.6 * rng.random(cells.shape)) / shape).reshape(-1, 2)
