@@ -114,17 +114,21 @@ class SeamTracer:
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             crossed = self._stops.crossing(stretch, count, contact)
-            if crossed is None:
-                crossed = self._stops.vertex(stretch, count) or self._stops.landing(stretch, count)
-                if crossed is None and why == INTRUDED:
+            back = crossed is not None and count > 1 and (crossed[1].point == here.point).all()
+            if back or crossed is None:
+                ended = None
+                if not back:
+                    ended = self._stops.vertex(stretch, count)
+                    ended = ended or self._stops.landing(stretch, count)
+                if ended is not None:
+                    runs.append(stretch.run(ended[0]))
+                    return Traced(tuple(runs), ended[1], SeamEnd.FIN, -1, nothing)
+                if why == INTRUDED:
                     # not over the edge: two sites that meet there, each with a foot beside it
                     runs.append(stretch.run(count))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
-                if crossed is None:
-                    near = place(stretch.track.points[count - 1])
-                    raise GeometryError(f"a seam cannot be followed past the trim near {near}")
-                runs.append(stretch.run(crossed[0]))
-                return Traced(tuple(runs), crossed[1], SeamEnd.FIN, -1, nothing)
+                near = place(stretch.track.points[count - 1])
+                raise GeometryError(f"a seam cannot be followed past the trim near {near}")
             kept, at = crossed
             runs.append(stretch.run(kept))
             if _merged(at, MET):

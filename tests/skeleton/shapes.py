@@ -92,6 +92,13 @@ def cone_in_a_wall() -> Solid:
     )
 
 
+def ledge() -> Solid:
+    """A square boss under a block, next to its side, from which a narrow ledge is left."""
+    return Block((0, 0, 0), (3.910885, 2.80936, 2.122921), name="block") | Block(
+        (2.613889, 1.7409, -0.40013), (3.425639, 2.796175, 1.333115), name="boss"
+    )
+
+
 SHAPES: dict[str, Callable[[], Solid]] = {
     "cube": lambda: Block((0, 0, 0), (2, 2, 2), name="cube"),
     "bar": lambda: Block((0, 0, 0), (2, 1, 1), name="bar"),
@@ -119,4 +126,5 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "rod and rib": rod_and_rib,
     "bored corner": bored_corner,
     "cone in a wall": cone_in_a_wall,
+    "boss at a ledge": ledge,
 }
