@@ -22,6 +22,7 @@ from decomp.sites.site import Site, SiteKind
 from decomp.tracing.contacts import Contacts
 from decomp.tracing.fields import site_fields
 from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.loci import axis_gap
 from decomp.tracing.patches import patch_rays
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import RegionQueries
@@ -167,10 +168,9 @@ class Arcs:
 
     def _is_about(self, circle: Circle, radius: float, point: Array) -> bool:
         """Whether a ball about a point touches all of a circle, which may be an edge in part."""
-        away = point - circle.centre
-        across = float(np.hypot(away @ circle.x, away @ circle.y))
-        depth = float(np.hypot(norm(away), circle.radius))
-        return max(across, abs(depth - radius)) <= ON_LOCUS * self._size
+        gap = float(axis_gap(circle, point[None])[0])
+        depth = float(np.hypot(norm(point - circle.centre), circle.radius))
+        return max(gap, abs(depth - radius)) <= ON_LOCUS * self._size
 
     def _is_on(self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()) -> bool:
         """Whether a contact is a point of an arc, or its end."""

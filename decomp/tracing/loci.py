@@ -36,10 +36,14 @@ def locus_gap(
         elif site.kind is SiteKind.EDGE:
             curve = boundary.edges[site.index].curve
             if isinstance(curve, Circle):
-                away = points - curve.centre
-                across = np.stack([away @ curve.x, away @ curve.y])
-                result = np.minimum(result, np.hypot(*across))
+                result = np.minimum(result, axis_gap(curve, points))
     return result
+
+
+def axis_gap(circle: Circle, points: Array) -> Array:
+    """Distance (k,) of points (k, 3) from a circle's axis."""
+    away = points - circle.centre
+    return np.hypot(away @ circle.x, away @ circle.y)
 
 
 def on_locus(

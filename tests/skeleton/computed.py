@@ -35,6 +35,9 @@ SLOW = {
     "wide offset tee",
     "netgen/twocyl.geo",
     "bulge",
+    "bored corner",
+    "cone in a wall",
+    "rod and rib",
 }
 """Models that take more than a few seconds."""
 

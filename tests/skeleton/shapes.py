@@ -95,6 +95,20 @@ def cone_in_a_wall() -> Solid:
 def ledge() -> Solid:
     """A square boss under a block, next to its side, from which a narrow ledge is left."""
     return Block((0, 0, 0), (3.910885, 2.80936, 2.122921), name="block") | Block(
+        (2.613889, 1.7409, -0.40013), (0.81175, 1.055275, 1.733245), name="boss"
+    )
+
+
+def joint() -> Solid:
+    """A post and an arm that overlap in a narrow joint, smaller than the post by two orders."""
+    return Block((0, 0, 0), (4.758807, 2.214868, 4.769244), name="post") | Block(
+        (-0.626982, -0.73319, 1.375161), (0.650615, 0.845799, 0.881841), name="arm"
+    )
+
+
+def crossing_blocks() -> Solid:
+    """A block through the side and below the floor of another, along whose edge a seam runs."""
+    return Block((0, 0, 0), (3.910885, 2.80936, 2.122921), name="block") | Block(
         (2.613889, 1.7409, -0.40013), (3.425639, 2.796175, 1.333115), name="boss"
     )
 
@@ -127,4 +141,6 @@ SHAPES: dict[str, Callable[[], Solid]] = {
     "bored corner": bored_corner,
     "cone in a wall": cone_in_a_wall,
     "boss at a ledge": ledge,
+    "narrow joint": joint,
+    "crossing blocks": crossing_blocks,
 }
