@@ -20,7 +20,7 @@ from decomp.medial.pieces import CurvePiece, middle_row
 from decomp.medial.reflexive import ReflexivePart
 from decomp.medial.trims import TrimPiece, TrimScanner, on_locus, solve_radius
 from decomp.sites import SiteIndex
-from decomp.sites.site import SiteKind
+from decomp.sites.site import SiteKind, faces_at
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.graph import Seam
@@ -223,7 +223,8 @@ def _end(incidence: Incidence, curve: TrimCurve, stop: float, guess: float) -> A
     """
     at, over = np.array([stop]), curve.over
     q, n = over.feet(at), over.directions(at)
-    for face in incidence.faces_at(over.sites):
+    near = {f for k in over.sites for f in faces_at(incidence.boundary, incidence.sites[k])}
+    for face in sorted(near):
         radius = _face_radius(incidence, face, q)
         turned = float(norm(incidence.inward(face, q)[0] - n[0]))
         if turned <= ANGLE and abs(radius - guess) <= AT_LOCUS * guess:

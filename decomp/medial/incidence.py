@@ -58,20 +58,6 @@ class Incidence:
                 found[face].append(number)
         return found
 
-    def faces_at(self, numbers: Sequence[int]) -> set[int]:
-        """The faces at some sites."""
-        found: set[int] = set()
-        for number in numbers:
-            site = self.sites[number]
-            match site.kind:
-                case SiteKind.FACE:
-                    found.add(site.index)
-                case SiteKind.EDGE:
-                    found.update(self.boundary.edges[site.index].faces)
-                case SiteKind.VERTEX:
-                    found.update(self.boundary.vertices[site.index].faces)
-        return found
-
     def inward(self, face: int, points: Array) -> Array:
         """Inward unit normals (k, 3) of a face at points (k, 3) on it."""
         it = self.boundary.faces[face]

@@ -46,3 +46,14 @@ def sites_of(boundary: RegionBoundary, region: int, sites: RegionSites) -> tuple
         Site(region, SiteKind.VERTEX, k, joined(boundary.vertices[k].faces)) for k in sites.vertices
     ]
     return (*faces, *edges, *vertices)
+
+
+def faces_at(boundary: RegionBoundary, site: Site) -> set[int]:
+    """The faces that a site of a region is, or is an edge or a vertex of."""
+    match site.kind:
+        case SiteKind.FACE:
+            return {site.index}
+        case SiteKind.EDGE:
+            return set(boundary.edges[site.index].faces)
+        case SiteKind.VERTEX:
+            return set(boundary.vertices[site.index].faces)

@@ -18,7 +18,7 @@ from decomp.boundary.topology import Convexity, Face, RegionBoundary
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
-from decomp.sites.site import Site, SiteKind
+from decomp.sites.site import Site, SiteKind, faces_at
 from decomp.tracing.contacts import Contacts
 from decomp.tracing.fields import site_fields
 from decomp.tracing.local import SeamRay, seam_rays
@@ -198,14 +198,7 @@ class Arcs:
                 return set()
 
     def _faces_at(self, number: int) -> set[int]:
-        site = self._sites[number]
-        match site.kind:
-            case SiteKind.FACE:
-                return {site.index}
-            case SiteKind.EDGE:
-                return set(self._boundary.edges[site.index].faces)
-            case SiteKind.VERTEX:
-                return set(self._boundary.vertices[site.index].faces)
+        return faces_at(self._boundary, self._sites[number])
 
     def _arcs(self, touching: Contacts, point: Array, faces: set[int], on: list[bool]) -> Array:
         """Gradients (k, 3) of points of the arcs."""
