@@ -26,6 +26,7 @@ from numba.extending import (
     unbox,
 )
 from numba.np.arrayobj import populate_array
+from numpy.typing import NDArray
 
 from decomp.vectors import Ints
 
@@ -96,13 +97,25 @@ def _type_of(value: Any) -> types.Type:
         return value._numba_type_  # most records are made of some that were seen before
     if _fields(value):
         return _type_of_fields(value)
-    kind = typeof(value)
+    kind = _array_type(value) if isinstance(value, np.ndarray) else typeof(value)
     if isinstance(kind, types.Array):
         if kind.layout != "C":
             raise TypeError("the arrays of a record must be C-contiguous")
     elif kind not in (types.int64, types.float64):
         raise TypeError(f"a record cannot hold {kind}")
     return kind
+
+
+_array_types: dict[tuple[Any, ...], types.Type] = {}
+
+
+def _array_type(array: NDArray[Any]) -> types.Type:
+    """What `typeof` says, which is asked once for all arrays alike."""
+    flags = array.flags
+    alike = (array.dtype, array.ndim, flags.c_contiguous, flags.writeable, flags.aligned)
+    if alike not in _array_types:
+        _array_types[alike] = typeof(array)
+    return _array_types[alike]
 
 
 def _words_of_fields(value: Any) -> list[int]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity
 from decomp.complex.model import Line, LineKind, Patch
@@ -121,13 +122,13 @@ class RegionAssembler:
         used = {end for piece in self._curves.pieces for end in piece.ends or ()}
         used |= set(range(fixed, fixed + len(self._curves.points)))
         result = [-1] * len(self._curves.nodes)
+        gaps, near = cKDTree(self._boundary.points).query(self._curves.nodes)
         for number, point in enumerate(self._curves.nodes):
             if number < fixed:
                 result[number] = self._boundary.of_vertex[number]
             elif number in used:
-                near = norm(self._boundary.points - point)
-                k = int(np.argmin(near))
-                result[number] = k if near[k] <= 1e-8 * self._size else self._add(point)
+                known = gaps[number] <= 1e-8 * self._size
+                result[number] = int(near[number]) if known else self._add(point)
         return result
 
     def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:

@@ -58,6 +58,16 @@ class Incidence:
                 found[face].append(number)
         return found
 
+    @cached_property
+    def reentrant_carriers(self) -> dict[int, list[int]]:
+        """The other carriers of each face's reentrant edges."""
+        found: dict[int, set[int]] = {k: set() for k in range(len(self.boundary.faces))}
+        for edge in self.boundary.edges:
+            if edge.convexity is Convexity.REENTRANT:
+                for face in edge.faces:
+                    found[face] |= {*edge.carriers} - {self.boundary.faces[face].carrier}
+        return {face: sorted(carriers) for face, carriers in found.items()}
+
     def inward(self, face: int, points: Array) -> Array:
         """Inward unit normals (k, 3) of a face at points (k, 3) on it."""
         it = self.boundary.faces[face]
@@ -156,6 +166,7 @@ class Incidence:
                 near = [it.index]
             case SiteKind.VERTEX:
                 near = list(self.boundary.vertices[it.index].edges)
+        near = self._about(near, foot)
         bends = [e for e in near if self.boundary.edges[e].convexity is not Convexity.CONVEX]
         edges = {e for e in bends if self._on(self.boundary.edges[e], foot)}
         corners = {v for e in near for v in self.boundary.edges[e].vertices or ()}
@@ -169,6 +180,23 @@ class Incidence:
                 if self.boundary.edges[e].convexity is not Convexity.CONVEX
             }
         return vertices, sorted(edges)
+
+    def _about(self, edges: list[int], point: Array) -> list[int]:
+        """Those of some edges whose boxes hold a point."""
+        some = np.array(edges, dtype=np.int64)
+        boxes = self._boxes[some]
+        held = (point >= boxes[:, 0]) & (point <= boxes[:, 1])
+        return [int(k) for k in some[held.all(axis=1)]]
+
+    @cached_property
+    def _boxes(self) -> Array:
+        """Boxes (n, 2, 3) that hold the edges."""
+        found = np.empty((len(self.boundary.edges), 2, 3))
+        for box, edge in zip(found, self.boundary.edges, strict=True):
+            # a chord's length is room enough for the arc above it
+            room = norm(np.diff(edge.samples, axis=0)).max(initial=0.0) + NEAR * self._size
+            box[0], box[1] = edge.samples.min(axis=0) - room, edge.samples.max(axis=0) + room
+        return found
 
     def _at(self, vertex: int, point: Array) -> bool:
         gap = float(norm(self.boundary.vertices[vertex].point - point))

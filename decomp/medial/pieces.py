@@ -111,7 +111,8 @@ def network(
         if a == b and piece.length <= 10 * WELD * size:
             continue
         joined.append(replace(piece, points=points, ends=(a, b)))
-    cut = [part for piece in (*joined, *loops) for part in _cut(piece, nodes, size)]
+    tree = cKDTree(nodes)
+    cut = [part for piece in (*joined, *loops) for part in _cut(piece, nodes, tree, size)]
     return Network(nodes, tuple(_merged(cut, size)))
 
 
@@ -136,14 +137,13 @@ def _welded(points: Array, fixed: int, tolerance: float) -> tuple[Array, Ints]:
     return np.array(unique).reshape(-1, 3), which
 
 
-def _cut(piece: CurvePiece, nodes: Array, size: float) -> list[CurvePiece]:
-    """Cut a piece at all nodes on it."""
+def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[CurvePiece]:
+    """Cut a piece at all nodes on it, which a tree holds."""
     if not len(nodes):
         return [piece]
     chords = np.diff(piece.points, axis=0)
     length = norm(chords)
     middle = piece.points[:-1] + chords / 2
-    tree = cKDTree(nodes)
     found: list[tuple[float, int, Array]] = []
     for k, near in enumerate(tree.query_ball_point(middle, 0.6 * length + ON * size)):
         for number in near:

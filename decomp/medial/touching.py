@@ -12,7 +12,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import Convexity
 from decomp.complex.model import LineKind
 from decomp.medial.incidence import Incidence
 from decomp.medial.pieces import CurvePiece
@@ -78,14 +77,7 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
 
             return measure
 
-        own = boundary.faces[it.index].carrier
-        others = {
-            carrier
-            for e in incidence.edges_of_face[it.index]
-            if boundary.edges[e].convexity is Convexity.REENTRANT
-            for carrier in boundary.edges[e].carriers
-        }
-        return [gap(carrier) for carrier in sorted(others - {own})]
+        return [gap(carrier) for carrier in incidence.reentrant_carriers[it.index]]
     return []
 
 

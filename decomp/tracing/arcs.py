@@ -8,7 +8,7 @@ along facets whose corners are ends of arcs and single contacts, if the arcs the
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -56,25 +56,25 @@ class Arcs:
         self._boundary, self._sites, self._queries = boundary, sites, queries
         self._region = region
         self._size = boundary.diagonal
-        self._round = [
-            (k, face)
+        self._round = {
+            k: face
             for k, face in enumerate(boundary.faces)
             if isinstance(boundary.carriers[face.carrier], (Cylinder, Cone, Torus))
-        ]
-        self._circles = [
-            (k, edge.curve)
+        }
+        self._circles = {
+            k: edge.curve
             for k, edge in enumerate(boundary.edges)
             if isinstance(edge.curve, Circle) and edge.convexity is Convexity.REENTRANT
-        ]
-        self._balls = [
-            (k, face)
+        }
+        self._balls = {
+            k: face
             for k, face in enumerate(boundary.faces)
             if isinstance(boundary.carriers[face.carrier], Sphere)
-        ]
+        }
 
     def leaving(self, touching: Contacts, point: Array) -> tuple[Contacts, list[SeamRay]]:
         """The seams that leave a point, of arcs and of single contacts, and with which contacts."""
-        balls = {k for k, face in self._balls if self._osculates(face, touching.radius, point)}
+        balls = self._osculating(self._balls, touching, point)
         if not balls:
             return touching, self._of_arcs(touching, point)
         single = [k for k, sites in enumerate(touching.sites) if not self._is_on(sites, balls)]
@@ -82,8 +82,10 @@ class Arcs:
         return patch_rays(*of_patches, touching, single)
 
     def _of_arcs(self, touching: Contacts, point: Array) -> list[SeamRay]:
-        faces = {k for k, face in self._round if self._osculates(face, touching.radius, point)}
-        edges = {k for k, it in self._circles if self._is_about(it, touching.radius, point)}
+        faces = self._osculating(self._round, touching, point)
+        at = {edge for sites in touching.sites for k in sites for edge in self._edges_at(k)}
+        circles = self._circles
+        edges = {k for k in at & circles.keys() if self._is_about(circles[k], touching, point)}
         if not faces and not edges:
             return seam_rays(touching.gradients)
         on = [self._is_on(sites, faces, edges) for sites in touching.sites]
@@ -109,7 +111,7 @@ class Arcs:
         Args:
             last: of the seam.
         """
-        for number, face in self._balls:
+        for number, face in self._balls.items():
             carrier = self._boundary.carriers[face.carrier]
             gap = float(reflexive_gap(carrier, face.outward, last.point[None])[0])
             of_face = all(number in self._faces_at(site) for site in last.sites)
@@ -132,7 +134,7 @@ class Arcs:
         Returns:
             None if it is no such point.
         """
-        face = dict(self._round).get(self._face_of(intruder))
+        face = self._round.get(self._face_of(intruder))
         others = [k for k in last.sites if self._face_of(intruder) not in self._faces_at(k)]
         if face is None or not others or len(others) == len(last.sites):
             return None
@@ -160,17 +162,22 @@ class Arcs:
         site = self._sites[number]
         return site.index if site.kind is SiteKind.FACE else -1
 
+    def _osculating(self, faces: Mapping[int, Face], touching: Contacts, point: Array) -> set[int]:
+        """Those of some faces that a ball about a point touches along an arc."""
+        at = {face for sites in touching.sites for k in sites for face in self._faces_at(k)}
+        return {k for k in at & faces.keys() if self._osculates(faces[k], touching.radius, point)}
+
     def _osculates(self, face: Face, radius: float, point: Array) -> bool:
         carrier = self._boundary.carriers[face.carrier]
         gap = float(reflexive_gap(carrier, face.outward, point[None])[0])
         depth = abs(float(carrier.signed_distance(point)))
         return gap <= ON_LOCUS * self._size and abs(depth - radius) <= ON_LOCUS * self._size
 
-    def _is_about(self, circle: Circle, radius: float, point: Array) -> bool:
+    def _is_about(self, circle: Circle, touching: Contacts, point: Array) -> bool:
         """Whether a ball about a point touches all of a circle, which may be an edge in part."""
         gap = float(axis_gap(circle, point[None])[0])
-        depth = float(np.hypot(norm(point - circle.centre), circle.radius))
-        return max(gap, abs(depth - radius)) <= ON_LOCUS * self._size
+        off = float(np.hypot(norm(point - circle.centre), circle.radius)) - touching.radius
+        return max(gap, abs(off)) <= ON_LOCUS * self._size
 
     def _is_on(self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()) -> bool:
         """Whether a contact is a point of an arc, or its end."""

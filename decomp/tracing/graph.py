@@ -174,7 +174,7 @@ class _Grower:
             for state in self.settled(seeds, left[:1]):
                 self._start_inside(state)
                 count += 1
-            new = [k for k in range(before + 1, self._count + 1) if k in self._seams]
+            new = {k for k in range(before + 1, self._count + 1) if k in self._seams}
             left = left[1:]
             left = left[~self._seams.hold(seeds.points[left], seeds.feet[left], new)]
         return count

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +16,6 @@ ASIDE = 0.2
 """How far a seam may stand out from its chord, as a part of the chord."""
 NEAR = 1e-5
 """Points nearer to a seam than this part of the size may lie on it."""
-BLOCK = 256
 FEET = 1e-2
 """Feet nearer to each other than this part of the radius may be the same."""
 
@@ -34,7 +33,7 @@ class KnownSeams:
         self._table, self._size = table, size
         self._seams: dict[int, Seam] = {}
         self._lines: dict[int, _Line] = {}
-        self._boxes = np.full((64, 6), np.nan)
+        self._boxes = np.full((6, 64), np.nan)
         for number, seam in enumerate(seams):
             self.add(number, seam)
 
@@ -50,10 +49,10 @@ class KnownSeams:
         """Add a seam under a new number."""
         self._seams[number] = seam
         self._lines[number] = line = _line(seam)
-        while number >= len(self._boxes):
-            self._boxes = np.concatenate([self._boxes, np.full_like(self._boxes, np.nan)])
+        while number >= self._boxes.shape[1]:
+            self._boxes = np.hstack([self._boxes, np.full_like(self._boxes, np.nan)])
         room = ASIDE * line.chord.max() + NEAR * self._size
-        self._boxes[number] = (
+        self._boxes[:, number] = (
             *(line.points.min(axis=0) - room),
             *(line.points.max(axis=0) + room),
         )
@@ -61,54 +60,50 @@ class KnownSeams:
     def remove(self, number: int) -> None:
         """Forget a seam."""
         del self._seams[number], self._lines[number]
-        self._boxes[number] = np.nan
+        self._boxes[:, number] = np.nan
 
     def through(self, point: Array) -> list[int]:
         """The numbers of the seams that pass a point (3,)."""
-        near = np.flatnonzero(_within(self._boxes, point))
         none = np.empty((1, 0, 3))
-        return [int(k) for k in near if self._on([int(k)], point[None], none)[0]]
+        return [k for k in self._about(point) if self._on([(0, k)], point[None], none)[0]]
 
     def near(self, point: Array, reach: float) -> bool:
         """Whether a chord of a seam passes a point (3,) within a reach."""
         for line in self._lines.values():
-            along = dot(point - line.points[:-1], line.way) / line.square
-            along = np.minimum(np.maximum(along, 0.0), 1.0)
-            gap = norm(point - line.points[:-1] - along[:, None] * line.way)
+            _, gap = line.beside(point)
             if bool((gap <= reach + ASIDE * line.chord).any()):
                 return True
         return False
 
-    def hold(self, points: Array, feet: Array, among: Sequence[int] | None = None) -> Bools:
+    def hold(self, points: Array, feet: Array, among: Collection[int] | None = None) -> Bools:
         """Whether points (k, 3) with some feet (k, j, 3) lie on a seam (with a given number)."""
-        numbers = np.array(list(self._seams) if among is None else among, dtype=np.int64)
-        known = np.zeros(len(points), dtype=np.bool_)
-        for start in range(0, len(points), BLOCK):
-            rows = slice(start, start + BLOCK)
-            touched = _within(self._boxes[numbers], points[rows, None]).any(axis=0)
-            near = [int(k) for k in numbers[touched]]
-            known[rows] = self._on(near, points[rows], feet[rows])
-        return known
+        among = self._seams if among is None else among
+        pairs = [(k, n) for k, p in enumerate(points) for n in self._about(p) if n in among]
+        return self._on(pairs, points, feet)
 
-    def _on(self, numbers: Sequence[int], points: Array, feet: Array) -> Bools:
-        """The same for seams with given numbers.
+    def _about(self, point: Array) -> list[int]:
+        """The numbers of the seams whose boxes hold a point (3,)."""
+        numbers: Ints = np.arange(self._boxes.shape[1])
+        for low, high, at in zip(self._boxes[:3], self._boxes[3:], point, strict=True):
+            numbers = numbers[(low[numbers] <= at) & (at <= high[numbers])]
+        return [int(k) for k in numbers]
+
+    def _on(self, pairs: Sequence[tuple[int, int]], points: Array, feet: Array) -> Bools:
+        """Which points (k, 3) lie on a seam; asked for pairs of a point and a seam only.
 
         Chords near a point are looked for first; then it is put onto the seam exactly, whose feet
         there must be among its own.
         """
         known = np.zeros(len(points), dtype=np.bool_)
         tasks: dict[int, list[tuple[int, tuple[int, ...], Array]]] = {}
-        for number in numbers:
+        for k, number in pairs:
             seam, line = self._seams[number], self._lines[number]
-            for k in np.flatnonzero(_within(self._boxes[number], points)):
-                along = dot(points[k] - line.points[:-1], line.way) / line.square
-                along = np.minimum(np.maximum(along, 0.0), 1.0)
-                gap = norm(points[k] - line.points[:-1] - along[:, None] * line.way)
-                close = np.flatnonzero(gap <= ASIDE * line.chord + NEAR * self._size)
-                for i in close[np.argsort(gap[close])][:2]:
-                    sites = seam.sites[int(i)]
-                    spot = line.feet[i] + along[i] * (line.feet[i + 1] - line.feet[i])
-                    tasks.setdefault(len(sites), []).append((int(k), sites, spot))
+            along, gap = line.beside(points[k])
+            close = np.flatnonzero(gap <= ASIDE * line.chord + NEAR * self._size)
+            for i in close[np.argsort(gap[close])][:2]:
+                sites = seam.sites[int(i)]
+                spot = line.feet[i] + along[i] * (line.feet[i + 1] - line.feet[i])
+                tasks.setdefault(len(sites), []).append((k, sites, spot))
         for listed in tasks.values():
             rows: Ints = np.array([k for k, _, _ in listed])
             which = np.array([sites for _, sites, _ in listed])
@@ -132,6 +127,12 @@ class _Line:
     chord: Array
     square: Array
 
+    def beside(self, point: Array) -> tuple[Array, Array]:
+        """The nearest places (k,) on the chords, from 0 to 1, and their distances from a point."""
+        along = dot(point - self.points[:-1], self.way) / self.square
+        along = np.minimum(np.maximum(along, 0.0), 1.0)
+        return along, norm(point - self.points[:-1] - along[:, None] * self.way)
+
 
 def _line(seam: Seam) -> _Line:
     points, feet = seam.points, seam.feet
@@ -140,9 +141,3 @@ def _line(seam: Seam) -> _Line:
     way = np.diff(points, axis=0)
     square = dot(way, way)
     return _Line(points, feet, way, np.sqrt(square), np.maximum(square, 1e-300))
-
-
-def _within(boxes: Array, points: Array) -> Bools:
-    """Whether points (..., 3) lie in boxes (..., 6)."""
-    low, high = boxes[..., :3], boxes[..., 3:]
-    return np.asarray(((points >= low) & (points <= high)).all(axis=-1))

@@ -19,6 +19,7 @@ from decomp.tracing.balls import Balls, balls_at
 from decomp.tracing.compiled import scalar
 from decomp.tracing.edge_seeds import edge_jumps
 from decomp.tracing.equidistance import equidistant
+from decomp.tracing.on_carriers import normals_at, projected
 from decomp.tracing.probing import TOWARDS, Probe, inside
 from decomp.tracing.queries import RegionQueries, region_queries
 from decomp.tracing.shrinking import OSCULATES, TOUCHES
@@ -81,11 +82,11 @@ def seam_seeds(
         scatter.append(_scattered(boundary, number, count, rng))
         carriers.append(np.full(len(scatter[-1]), face.carrier))
     points, which = np.concatenate(scatter), np.concatenate(carriers)
-    signs = _inward_signs(boundary, queries.probe, points, which)
+    signs = _inward_signs(queries, points, which)
     kept = signs != 0
     found = _Samples(points[kept], which[kept], signs[kept])
     first, second = _pairs(found)
-    spots = _between(boundary, queries, found, first, second)
+    spots = _between(queries, found, first, second)
     more = edge_jumps(boundary, queries, samples, rng)
     points, feet = (np.concatenate(both) for both in zip(spots, more, strict=True))
     return _exact(index, boundary, queries, points, feet)
@@ -116,14 +117,11 @@ def _scattered(
     return carrier.project(np.concatenate([near, far]) if edges else far)
 
 
-def _inward_signs(boundary: RegionBoundary, probe: Probe, points: Array, carriers: Ints) -> Array:
+def _inward_signs(queries: RegionQueries, points: Array, carriers: Ints) -> Array:
     """The sign by which a carrier's normal points into the region, 0 off its boundary."""
-    normals = np.empty_like(points)
-    for k in np.unique(carriers):
-        rows = carriers == k
-        normals[rows] = boundary.carriers[k].normal(points[rows])
+    normals = normals_at(queries.probe.occupancy.table, carriers, points)
     signs = np.zeros(len(points))
-    sides(probe, points, normals, carriers.astype(np.int64), INWARD * boundary.diagonal, signs)
+    sides(queries.probe, points, normals, carriers, INWARD * queries.size, signs)
     return signs
 
 
@@ -146,42 +144,29 @@ def sides(
 def _pairs(samples: _Samples) -> tuple[Ints, Ints]:
     """Pairs (k,), (k,) of neighbours on the same side of the same carrier."""
     found = []
-    for carrier in np.unique(samples.carriers):
-        for sign in (1.0, -1.0):
-            rows = np.flatnonzero((samples.carriers == carrier) & (samples.signs == sign))
-            if len(rows) < 2:
-                continue
-            points = samples.points[rows]
-            _, near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, len(points)))
-            one = np.repeat(np.arange(len(points)), near.shape[1] - 1)
-            both = np.sort(np.stack([one, near[:, 1:].ravel()], axis=1), axis=1)
-            found.append(rows[np.unique(both, axis=0)])
+    side = 2 * samples.carriers + (samples.signs > 0)
+    order = np.argsort(side, kind="stable")
+    for rows in np.split(order, np.flatnonzero(np.diff(side[order])) + 1):
+        if len(rows) < 2:
+            continue
+        points = samples.points[rows]
+        _, near = cKDTree(points).query(points, k=min(NEIGHBOURS + 1, len(points)))
+        one = np.repeat(np.arange(len(points)), near.shape[1] - 1)
+        both = np.sort(np.stack([one, near[:, 1:].ravel()], axis=1), axis=1)
+        found.append(rows[np.unique(both, axis=0)])
     pairs = np.concatenate([*found, np.empty((0, 2), dtype=np.int64)]).astype(np.int64)
     return pairs[:, 0], pairs[:, 1]
 
 
 def _between(
-    boundary: RegionBoundary, queries: RegionQueries, samples: _Samples, one: Ints, other: Ints
+    queries: RegionQueries, samples: _Samples, one: Ints, other: Ints
 ) -> tuple[Array, Array]:
     """Where the far foot jumps between samples, by bisection: points (k, 3), feet (k, 3, 3)."""
-    size = boundary.diagonal
-
-    def normals(carriers: Ints, signs: Array, points: Array) -> Array:
-        result = np.empty_like(points)
-        for k in np.unique(carriers):
-            rows = carriers == k
-            result[rows] = boundary.carriers[k].normal(points[rows])
-        return np.asarray(signs[:, None] * result)
-
-    def project(carriers: Ints, points: Array) -> Array:
-        result = np.empty_like(points)
-        for k in np.unique(carriers):
-            rows = carriers == k
-            result[rows] = boundary.carriers[k].project(points[rows])
-        return result
+    size, table = queries.size, queries.probe.occupancy.table
 
     def balls(carriers: Ints, signs: Array, points: Array) -> Balls:
-        found, state = balls_at(queries, points, normals(carriers, signs, points), size)
+        inward = signs[:, None] * normals_at(table, carriers, points)
+        found, state = balls_at(queries, points, inward, size)
         found.site[(state != TOUCHES) & (state != OSCULATES)] = -1
         return found
 
@@ -195,9 +180,9 @@ def _between(
         low, high = _rows(low, keep), _rows(high, keep)
         if step == BISECTIONS or not len(first):
             break
-        middle = project(carriers, (first + second) / 2)
+        middle = projected(table, carriers, (first + second) / 2)
         # between two points of a face one can be off it
-        off = _inward_signs(boundary, queries.probe, middle, carriers) != signs
+        off = _inward_signs(queries, middle, carriers) != signs
         new = balls(carriers, signs, middle)
         new.site[off] = -1
         # the half in which the far foot moves more

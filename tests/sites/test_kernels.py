@@ -21,6 +21,7 @@ from decomp.kernels.carriers import (
     signed_distance,
 )
 from decomp.kernels.records import Record
+from decomp.tracing.on_carriers import normals_at, projected
 from decomp.vectors import Array, direction, frozen
 
 POINT, AXIS = frozen([0.3, -0.2, 0.1]), direction([1, 2, 2], "axis")
@@ -52,6 +53,17 @@ def test_kernels_equal_carriers(carrier: Carrier) -> None:
     on = on[np.linalg.norm(on - POINT, axis=1) > 1e-9]  # a cone has no normal at its apex
     normals = [normal_at(table, 1, *q) for q in on]
     np.testing.assert_allclose(normals, carrier.normal(on), atol=1e-13)
+
+
+def test_many_points_each_on_a_carrier_of_its_own() -> None:
+    which = np.arange(len(PLACES[:200])) % len(CARRIERS)
+    feet = projected(carrier_table(CARRIERS), which, PLACES[:200])
+    normals = normals_at(carrier_table(CARRIERS), which, feet)
+    for k, carrier in enumerate(CARRIERS):
+        own = which == k
+        np.testing.assert_allclose(feet[own], carrier.project(PLACES[:200][own]), atol=1e-14)
+        smooth = own & (np.linalg.norm(feet - POINT, axis=1) > 1e-9)  # not at the cone's apex
+        np.testing.assert_allclose(normals[smooth], carrier.normal(feet[smooth]), atol=1e-13)
 
 
 @pytest.mark.parametrize("carrier", CARRIERS, ids=lambda c: c.kind)
