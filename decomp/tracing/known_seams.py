@@ -77,9 +77,18 @@ class KnownSeams:
 
     def hold(self, points: Array, feet: Array, among: Collection[int] | None = None) -> Bools:
         """Whether points (k, 3) with some feet (k, j, 3) lie on a seam (with a given number)."""
-        among = self._seams if among is None else among
-        pairs = [(k, n) for k, p in enumerate(points) for n in self._about(p) if n in among]
+        numbers = list(self._seams if among is None else among)
+        if len(numbers) < len(points):
+            pairs = [(k, n) for n in numbers for k in self._beside(n, points)]
+        else:
+            allowed = set(numbers)
+            pairs = [(k, n) for k, p in enumerate(points) for n in self._about(p) if n in allowed]
         return self._on(pairs, points, feet)
+
+    def _beside(self, number: int, points: Array) -> list[int]:
+        """Which of some points (k, 3) lie in a seam's box."""
+        low, high = self._boxes[:3, number], self._boxes[3:, number]
+        return [int(k) for k in np.flatnonzero(((low <= points) & (points <= high)).all(axis=1))]
 
     def _about(self, point: Array) -> list[int]:
         """The numbers of the seams whose boxes hold a point (3,)."""
