@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
+from decomp.medial.minima import least_values
 from decomp.vectors import Array
 
 CLOSE = 0.05
 """Minima of the gap below this part of the size are looked at more closely."""
 ZERO = 1e-9
+RESOLUTION = 1e-9
 BESIDE = 1e-3
 """Touches nearer to the ends than this part of an interval between samples are the ends."""
 
@@ -33,17 +34,14 @@ def touches(size: float, s: Array, gap: Callable[[Array], Array]) -> list[float]
     values = gap(s)
     inner = values[1:-1]
     least = (inner <= values[:-2]) & (inner <= values[2:]) & (inner < CLOSE * size)
+    rows = np.flatnonzero(least) + 1
+    places, values = least_values(lambda _, at: gap(at), s[rows - 1], s[rows + 1], RESOLUTION)
     found: list[float] = []
-    for k in np.flatnonzero(least) + 1:
-        low, high = float(s[k - 1]), float(s[k + 1])
-        best = minimize_scalar(
-            lambda x: float(gap(np.array([x]))[0]),
-            bounds=(low, high),
-            method="bounded",
-            options={"xatol": 1e-9 * (high - low)},
-        )
-        at, slack = float(best.x), BESIDE * (high - low)
+    for at, value, width in zip(
+        places.tolist(), values.tolist(), (s[rows + 1] - s[rows - 1]).tolist(), strict=True
+    ):
+        slack = BESIDE * width
         inside = s[0] + slack < at < s[-1] - slack
-        if inside and float(best.fun) <= ZERO * size and all(abs(at - x) > slack for x in found):
+        if inside and value <= ZERO * size and all(abs(at - x) > slack for x in found):
             found.append(at)
     return found

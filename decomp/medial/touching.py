@@ -10,18 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
 from decomp.complex.model import LineKind
 from decomp.medial.incidence import Incidence
+from decomp.medial.minima import least_values
 from decomp.medial.pieces import CurvePiece
 from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Ints, norm
 
 CLOSE = 0.05
 """Minima of the measure (radians, or parts of the size) that are looked at more closely."""
 ZERO = 1e-7
+RESOLUTION, BESIDE = 1e-11, 1e-3
+"""How exactly a touch is placed, and how far it must be from the ends, in parts of a chord."""
 
 Measure = Callable[[Array], Array]
 
@@ -87,21 +89,19 @@ def _zeros(piece: CurvePiece, measure: Measure) -> list[Array]:
     values = measure(points)
     inner = values[1:-1]
     rows = np.flatnonzero((inner <= values[:-2]) & (inner <= values[2:]) & (inner < CLOSE)) + 1
-    found = []
-    for k in rows:
+    if not len(rows):
+        return []
 
-        def at(share: float, k: int = int(k)) -> Array:
-            one, two = (k - 1, k) if share < 1 else (k, k + 1)
-            part = share if share < 1 else share - 1
-            chord = points[one] + part * (points[two] - points[one])
-            return piece.element.place(chord[None])
+    def place(which: Ints, share: Array) -> Array:
+        first = rows[which] - (share < 1)
+        part = np.where(share < 1, share, share - 1)[:, None]
+        return piece.element.place(points[first] + part * (points[first + 1] - points[first]))
 
-        best = minimize_scalar(
-            lambda share: float(measure(at(share))[0]),
-            bounds=(0.0, 2.0),
-            method="bounded",
-            options={"xatol": 1e-11},
-        )
-        if float(best.fun) <= ZERO and 1e-3 < float(best.x) < 2 - 1e-3:
-            found.append(at(float(best.x))[0])
-    return found
+    share, least = least_values(
+        lambda which, share: measure(place(which, share)),
+        np.zeros(len(rows)),
+        np.full(len(rows), 2.0),
+        RESOLUTION,
+    )
+    zero = np.flatnonzero((least <= ZERO) & (share > BESIDE) & (share < 2 - BESIDE))
+    return list(place(zero, share[zero]))
