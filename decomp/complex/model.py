@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array, Bools, Ints
 
 
 class CurveElement(Protocol):
@@ -30,6 +30,25 @@ class SurfaceElement(Protocol):
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3) at points on the surface, all to one side of it."""
+        ...
+
+
+class SurfaceFamily(Protocol):
+    """Surfaces that are asked for points of all of them at once.
+
+    A surface can have a `family`, the same object for all of one family, and a static method
+    `of_family`, which makes one of these of some members.
+    """
+
+    def place(self, which: Ints, points: Array) -> tuple[Array, Bools]:
+        """Points (k, 3), each moved onto a given member (k,), and whether that succeeded (k,)."""
+        ...
+
+    def normal(self, which: Ints, points: Array) -> tuple[Array, Bools]:
+        """Unit normals (k, 3) at points on given members (k,), and whether they are good (k,).
+
+        Where one is not, its member has to be asked by itself.
+        """
         ...
 
 

@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from decomp.complex.model import Complex, CurveElement, SurfaceElement
+from decomp.complex.model import Complex, CurveElement, SurfaceElement, SurfaceFamily
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm, place
+
+Together = Callable[[Ints, Array], tuple[Array, Bools]]
 
 
 class Elements:
@@ -45,7 +47,7 @@ class Elements:
                 self._curves.append(line.curve)
                 self.names.append(f"{line.kind.value} curve")
             of_line.append(curves[id(line.curve)])
-        self._families, self._family = _families(self._surfaces)
+        self._families, self._family, self._member = _families(self._surfaces)
         self.of_patch: Ints = np.array(of_patch, dtype=np.int64)
         self.of_line: Ints = np.array(of_line, dtype=np.int64)
 
@@ -55,7 +57,7 @@ class Elements:
         Raises:
             GeometryError: an element gives no finite point; the message says where.
         """
-        moved = self._each(numbers, points, self._place_on, "place_together")
+        moved = self._each(numbers, points, self._place_on, [f.place for f in self._families])
         self._finite(numbers, points, moved)
         return moved
 
@@ -65,7 +67,7 @@ class Elements:
         Raises:
             GeometryError: a surface gives no finite normal; the message says where.
         """
-        found = self._each(numbers, points, self._normal_of, "normals_together")
+        found = self._each(numbers, points, self._normal_of, [f.normal for f in self._families])
         self._finite(numbers, points, found)
         return found
 
@@ -87,7 +89,11 @@ class Elements:
         return self._surfaces[number].normal(points)
 
     def _each(
-        self, numbers: Ints, points: Array, ask: Callable[[int, Array], Array], together: str
+        self,
+        numbers: Ints,
+        points: Array,
+        ask: Callable[[int, Array], Array],
+        ask_families: Sequence[Together],
     ) -> Array:
         """Ask each family, or else each element, once for all its points."""
         if len(numbers) == 0:
@@ -95,28 +101,21 @@ class Elements:
         if (numbers == numbers[0]).all():
             return ask(int(numbers[0]), points)
         result = np.empty((len(points), 3))
-        for rows in self._by_family(numbers, points, together, result):
-            order = rows[np.argsort(numbers[rows], kind="stable")]
-            for some in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
-                result[some] = ask(int(numbers[some[0]]), points[some])
-        return result
-
-    def _by_family(self, numbers: Ints, points: Array, together: str, result: Array) -> list[Ints]:
-        """Fill in what families know; the rows that are left."""
-        if not self._families:
-            return [np.arange(len(numbers))]
-        known = np.append(self._family, np.full(len(self._curves), -1))
-        family = known[numbers]
+        family = np.full(len(numbers), -1, dtype=np.int64)
+        on = np.flatnonzero(numbers < len(self._surfaces))
+        family[on] = self._family[numbers[on]]
         left = [np.flatnonzero(family < 0)]
-        for k, members in enumerate(self._families):
+        for k, ask_family in enumerate(ask_families):
             rows = np.flatnonzero(family == k)
             if len(rows):
-                which = np.searchsorted(members, numbers[rows])
-                surfaces: list[Any] = [self._surfaces[number] for number in members]
-                found, good = getattr(surfaces[0], together)(surfaces, which, points[rows])
-                result[rows] = found
+                result[rows], good = ask_family(self._member[numbers[rows]], points[rows])
                 left.append(rows[~good])
-        return [rows for rows in left if len(rows)]
+        alone = np.concatenate(left)
+        order = alone[np.argsort(numbers[alone], kind="stable")]
+        for some in np.split(order, np.flatnonzero(np.diff(numbers[order])) + 1):
+            if len(some):
+                result[some] = ask(int(numbers[some[0]]), points[some])
+        return result
 
     def _finite(self, numbers: Ints, points: Array, values: Array) -> None:
         if np.isfinite(values).all():
@@ -127,15 +126,14 @@ class Elements:
         )
 
 
-def _families(surfaces: Sequence[SurfaceElement]) -> tuple[list[list[int]], Ints]:
-    """The numbers of the surfaces in each family, and the family of each surface, -1 for none."""
-    found: dict[int, list[int]] = {}
+def _families(surfaces: Sequence[SurfaceElement]) -> tuple[list[SurfaceFamily], Ints, Ints]:
+    """The families, the family of each surface, -1 for none, and its number in it."""
+    found: dict[int, list[Any]] = {}
+    of_surface, member = np.full((2, len(surfaces)), -1, dtype=np.int64)
     for number, surface in enumerate(surfaces):
         family = getattr(surface, "family", None)
         if family is not None:
-            found.setdefault(id(family), []).append(number)
-    families = [members for members in found.values() if len(members) > 1]
-    of_surface = np.full(len(surfaces), -1, dtype=np.int64)
-    for k, members in enumerate(families):
-        of_surface[members] = k
-    return families, of_surface
+            own = found.setdefault(id(family), [])
+            of_surface[number], member[number] = list(found).index(id(family)), len(own)
+            own.append(surface)
+    return [own[0].of_family(own) for own in found.values()], of_surface, member

@@ -11,7 +11,8 @@ from decomp.errors import InputError
 from decomp.medial.incidence import Incidence
 from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.result import Skeleton
-from decomp.medial.sheet_surface import CLEAR, SheetSurface
+from decomp.medial.sheet_family import CLEAR
+from decomp.medial.sheet_surface import SheetSurface
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, dot, nearest_rows, norm
 

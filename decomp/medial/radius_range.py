@@ -67,15 +67,19 @@ class SheetRadii:
     def __init__(self, queries: RegionQueries, sheets: Sequence[DrawnSheet]) -> None:
         self._queries, self._size, self._sheets = queries, queries.size, sheets
         self._sites: Ints = np.sort(np.array([s.sites for s in sheets]).reshape(-1, 2), axis=1)
-        families: dict[int, list[int]] = {}
+        families: dict[int, list[SheetSurface]] = {}
+        members: dict[int, list[int]] = {}
         self._alone: list[int] = []
         for k, sheet in enumerate(sheets):
-            family = sheet.surface.family if isinstance(sheet.surface, SheetSurface) else None
-            if family is None:
-                self._alone.append(k)
+            surface = sheet.surface
+            if isinstance(surface, SheetSurface) and surface.family is not None:
+                families.setdefault(id(surface.family), []).append(surface)
+                members.setdefault(id(surface.family), []).append(k)
             else:
-                families.setdefault(id(family), []).append(k)
-        self._families = list(families.values())
+                self._alone.append(k)
+        self._families = [
+            (members[key], SheetSurface.of_family(own)) for key, own in families.items()
+        ]
 
     def ranges(self, points: Array, radius: Array) -> list[Range]:
         """Least and greatest radius of each sheet.
@@ -123,11 +127,10 @@ class SheetRadii:
     def _on(self, which: Ints, points: Array) -> tuple[Array, Bools]:
         """Points moved onto the surfaces of some sheets, and whether that succeeded."""
         moved, good = np.array(points), np.ones(len(points), dtype=np.bool_)
-        for members in self._families:
+        for members, family in self._families:
             rows, local = _rows_of(which, members)
             if len(rows):
-                surfaces = [self._surface(k) for k in members]
-                moved[rows], good[rows] = SheetSurface.place_together(surfaces, local, points[rows])
+                moved[rows], good[rows] = family.place(local, points[rows])
         for k in self._alone:
             rows = np.flatnonzero(which == k)
             surface = self._sheets[k].surface
@@ -142,22 +145,15 @@ class SheetRadii:
     def _normal(self, which: Ints, points: Array) -> Array:
         normal = np.empty_like(points)
         left = np.ones(len(points), dtype=np.bool_)
-        for members in self._families:
+        for members, family in self._families:
             rows, local = _rows_of(which, members)
             if len(rows):
-                surfaces = [self._surface(k) for k in members]
-                found, good = SheetSurface.normals_together(surfaces, local, points[rows])
-                normal[rows] = found
+                normal[rows], good = family.normal(local, points[rows])
                 left[rows[good]] = False
         for k in np.unique(which[left]):
             rows = np.flatnonzero(left & (which == k))
             normal[rows] = self._sheets[k].surface.normal(points[rows])
         return normal
-
-    def _surface(self, k: int) -> SheetSurface:
-        surface = self._sheets[k].surface
-        assert isinstance(surface, SheetSurface)
-        return surface
 
     def _rise(self, which: Ints, points: Array, normal: Array | None = None) -> Array:
         """The gradient h (k, 3) of the radius along the sheets."""

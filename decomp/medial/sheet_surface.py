@@ -11,14 +11,12 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
+from decomp.medial.sheet_family import CLEAR, SheetFamily
 from decomp.tracing.equidistance import equidistant
 from decomp.tracing.fields import Field, site_fields
 from decomp.tracing.loci import on_locus
 from decomp.tracing.supports import CURVE, support_table
 from decomp.vectors import Array, Bools, Ints, norm, place
-
-CLEAR = 1e-9
-"""Points nearer to a site than this part of the size have no direction from it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,38 +43,9 @@ class SheetSurface:
         return None if self._curved else self.incidence
 
     @staticmethod
-    def place_together(
-        members: Sequence[SheetSurface], which: Ints, points: Array
-    ) -> tuple[Array, Bools]:
-        """Points (k, 3), each moved onto a member of a family, and whether that succeeded (k,).
-
-        Args:
-            members: of the family.
-            which: (k,) the member that each point belongs to.
-            points: (k, 3).
-        """
-        it = members[0].incidence
-        pairs: Ints = np.array([member.sites for member in members])[which]
-        feet = np.repeat(points[:, None], 2, axis=1)
-        found = equidistant(it.boundary, it.sites, pairs, points, feet)
-        return found.points, found.converged
-
-    @staticmethod
-    def normals_together(
-        members: Sequence[SheetSurface], which: Ints, points: Array
-    ) -> tuple[Array, Bools]:
-        """Unit normals (k, 3) at points on members of a family, and whether they are good (k,).
-
-        Where one is not, its member has to be asked by itself.
-        """
-        it = members[0].incidence
-        pairs: Ints = np.array([member.sites for member in members])[which]
-        one, two = (
-            site_fields(it.boundary, it.sites, pairs[:, k], points, points).gradient for k in (0, 1)
-        )
-        length = norm(one - two)
-        good = length > CLEAR
-        return (one - two) / np.where(good, length, 1.0)[:, None], good
+    def of_family(members: Sequence[SheetSurface]) -> SheetFamily:
+        """The family that some sheets of one family make."""
+        return SheetFamily(members[0].incidence, [member.sites for member in members])
 
     def place(self, points: Array) -> Array:
         """Move points (k, 3) straight onto the surface.

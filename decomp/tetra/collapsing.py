@@ -23,7 +23,7 @@ are smoothed afterwards."""
 
 def collapsed(
     points: Array, tets: Ints, part: Ints, nodes: Ints, kinds: Mapping[int, frozenset[int]]
-) -> tuple[Array, Ints, Ints] | None:
+) -> tuple[Ints, Ints] | None:
     """Merge nodes with neighbours at which at least the same kinds of patches meet.
 
     Args:
@@ -34,7 +34,7 @@ def collapsed(
         kinds: the kinds of patches that meet at each node that is on any.
 
     Returns:
-        points, tetrahedra and their parts; None if no node could be merged.
+        tetrahedra and their parts; None if no node could be merged.
     """
     faces = faces_of(tets)
     hull = faces.triangles[faces.tets[:, 1] < 0]
@@ -58,8 +58,7 @@ def collapsed(
         moved |= around | {node}
     if not moved:
         return None
-    used = np.unique(tets[alive])
-    return points[used], np.searchsorted(used, tets[alive]), part[alive]
+    return tets[alive], part[alive]
 
 
 def _best_goal(points: Array, tets: Ints, hull: Ints, node: int, goals: list[int]) -> int | None:

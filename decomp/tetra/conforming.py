@@ -24,7 +24,7 @@ from decomp.tetra.separating import separated
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder, renewed
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array, Bools, Ints
 
 ROUNDS = 8
 FLIPS = 3
@@ -119,10 +119,41 @@ def _mended(
     finder: Finder,
 ) -> tuple[Array, Ints, Ints] | None:
     """Change tetrahedra at nodes that have no room where they belong; None if none could be."""
-    whole = filled(points, tets, part, left, tagger.parts_at)
-    if whole is not None:
-        return (points, *whole)
-    merged = collapsed(points, tets, part, left, finder.kinds(tagged))
-    if merged is not None:
-        return merged
+    near = _around(tets, left)
+    found = _changed(points, tets[near], part[near], left, tagger, tagged.at(tets[near]), finder)
+    if found is None:
+        return None
+    points, new, parts = found
+    tets, part = np.concatenate([tets[~near], new]), np.concatenate([part[~near], parts])
+    used = np.unique(tets)
+    return points[used], np.searchsorted(used, tets), part
+
+
+def _around(tets: Ints, nodes: Ints) -> Bools:
+    """The tetrahedra (m,) at nodes, and those that touch them.
+
+    What changes is at the nodes, and it depends on nothing but these.
+    """
+    for _ in range(2):
+        some = np.isin(tets, nodes).any(axis=1)
+        nodes = np.unique(tets[some])
+    return np.asarray(some)
+
+
+def _changed(
+    points: Array,
+    tets: Ints,
+    part: Ints,
+    left: Ints,
+    tagger: Tagger,
+    tagged: Tagged,
+    finder: Finder,
+) -> tuple[Array, Ints, Ints] | None:
+    """The same for the tetrahedra around the nodes."""
+    filling = filled(points, tets, part, left, tagger.parts_at)
+    if filling is not None:
+        return points, *filling
+    merging = collapsed(points, tets, part, left, finder.kinds(tagged))
+    if merging is not None:
+        return points, *merging
     return separated(points, tets, part, left, tagger.owner(tagged, left), tagger.parts_at)

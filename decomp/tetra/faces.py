@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import acos, pi, sqrt
 
 import numpy as np
 
+from decomp.kernels.compiled import kernel
 from decomp.vectors import Array, Ints, cross, dot
 
 OPPOSITE = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 """The face opposite to each vertex of a positive tetrahedron, seen from outside it."""
 EDGES = np.array([[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]])
 """The edges of a tetrahedron in Gmsh's order."""
-PAIRS = [(i, j) for i in range(4) for j in range(i)]
+TINY = 1e-300
 NONE = -1
+MOST = 1 << 21
+"""With fewer vertices three numbers of vertices fit into one of 64 bits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +41,10 @@ def faces_of(tets: Ints) -> Faces:
     """
     every = tets[:, OPPOSITE].reshape(-1, 3)
     owner = np.repeat(np.arange(len(tets)), 4)
-    keys = np.sort(every, axis=1)
-    order = np.lexsort((owner, keys[:, 2], keys[:, 1], keys[:, 0]))
+    keys = _keys(every)
+    order = np.argsort(keys, kind="stable")
     keys = keys[order]
-    same = (keys[1:] == keys[:-1]).all(axis=1)
+    same = keys[1:] == keys[:-1]
     if (same[1:] & same[:-1]).any():
         raise ValueError("a triangle belongs to three tetrahedra")
     first = np.flatnonzero(np.concatenate([[True], ~same]))
@@ -48,6 +52,23 @@ def faces_of(tets: Ints) -> Faces:
     other = np.full(len(first), NONE, dtype=np.int64)
     other[paired] = owner[order[first[paired] + 1]]
     return Faces(every[order[first]], np.stack([owner[order[first]], other], axis=1))
+
+
+def _keys(triangles: Ints) -> Ints:
+    """A number (k,) for each triangle (k, 3), whatever the order of its vertices.
+
+    Raises:
+        ValueError: there are too many vertices.
+    """
+    low, middle, high = np.sort(triangles, axis=1).T
+    width = int(high.max(initial=0)) + 1
+    if width < MOST:
+        return np.asarray((low * width + middle) * width + high)
+    # the two first vertices are few beside all pairs
+    _, pair = np.unique(low * width + middle, return_inverse=True)
+    if width >= 1 << 31:
+        raise ValueError(f"{width} vertices are too many")
+    return np.asarray(pair * width + high)
 
 
 def volumes(points: Array, tets: Ints) -> Array:
@@ -61,25 +82,46 @@ def least_dihedral(points: Array, tets: Ints) -> Array:
 
     The angle between two faces is measured with a sign of the tetrahedron's volume.
     """
-    # vertices, coordinates, tetrahedra: operations on long rows are several times as fast
-    corners = np.ascontiguousarray(points[tets].transpose(1, 2, 0))
-    u, v, w = corners[1:] - corners[0]
-    # out of the face opposite to each vertex, twice its area long; together they are zero
-    normal = np.empty_like(corners)
-    normal[1], normal[2], normal[3] = _cross(w, v), _cross(u, w), _cross(v, u)
-    normal[0] = -(normal[1] + normal[2] + normal[3])
-    positive = (normal[3] * w).sum(axis=0) < 0
-    normal /= np.maximum(np.sqrt((normal**2).sum(axis=1)), 1e-300)[:, None]
-    cosine = np.min([(normal[i] * normal[j]).sum(axis=0) for i, j in PAIRS], axis=0)
-    least = np.degrees(np.arccos(np.clip(-cosine, -1, 1)))
-    return np.asarray(np.where(positive, least, -least))
+    result = np.empty(len(tets))
+    _least_dihedral(np.ascontiguousarray(points), np.ascontiguousarray(tets), result)
+    return result
 
 
-def _cross(a: Array, b: Array) -> Array:
-    """Vector products (3, m) along the first axis."""
-    return np.stack(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    )
+@kernel
+def _least_dihedral(points: Array, tets: Ints, result: Array) -> None:
+    normal = np.empty((4, 3))
+    for t in range(len(tets)):
+        a, b, c, d = points[tets[t, 0]], points[tets[t, 1]], points[tets[t, 2]], points[tets[t, 3]]
+        for i in range(3):
+            # out of the face opposite to each vertex, twice its area long; together they are zero
+            j, k = (i + 1) % 3, (i + 2) % 3
+            uj, uk, vj, vk, wj, wk = (
+                b[j] - a[j],
+                b[k] - a[k],
+                c[j] - a[j],
+                c[k] - a[k],
+                d[j] - a[j],
+                d[k] - a[k],
+            )
+            normal[1, i] = wj * vk - wk * vj
+            normal[2, i] = uj * wk - uk * wj
+            normal[3, i] = vj * uk - vk * uj
+            normal[0, i] = -(normal[1, i] + normal[2, i] + normal[3, i])
+        volume = 0.0
+        for i in range(3):
+            volume -= normal[3, i] * (d[i] - a[i])
+        least = 1.0
+        for m in range(4):
+            length = sqrt(normal[m, 0] ** 2 + normal[m, 1] ** 2 + normal[m, 2] ** 2)
+            for i in range(3):
+                normal[m, i] /= max(length, TINY)
+            for n in range(m):
+                cosine = 0.0
+                for i in range(3):
+                    cosine += normal[m, i] * normal[n, i]
+                least = min(least, cosine)
+        angle = acos(min(max(-least, -1.0), 1.0)) * 180 / pi
+        result[t] = angle if volume > 0 else -angle
 
 
 def edges_of(cells: Ints, pairs: Ints) -> tuple[Ints, Ints]:

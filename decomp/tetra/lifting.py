@@ -32,14 +32,18 @@ def lifted(points: Array, tets: Ints, free: Bools) -> Array:
     for _ in range(PASSES):
         poor = least_dihedral(points, tets) < POOR
         nodes = np.unique(tets[poor])
-        moves = [_lift(points, tets, int(node), random) for node in nodes[free[nodes]]]
+        near = tets[np.isin(tets, nodes).any(axis=1)]
+        moves = [_lift(points, near, int(node), random) for node in nodes[free[nodes]]]
         if not any(moves):
             break
     return points
 
 
 def _lift(points: Array, tets: Ints, node: int, random: np.random.Generator) -> bool:
-    """Move one node to where the least angle around it is greatest; whether it was moved."""
+    """Move one node to where the least angle around it is greatest; whether it was moved.
+
+    All its tetrahedra are among those given.
+    """
     star = tets[(tets == node).any(axis=1)]
     around = np.unique(star)
     around = around[around != node]

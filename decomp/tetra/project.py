@@ -171,8 +171,10 @@ class Projector:
         rows = self._row[nodes]
         movable = (rows < 0) | (self._dimension[rows] > 0) & self._done[rows]
         count = 0
+        nodes_left = nodes[movable]
+        if not len(nodes_left):
+            return 0
         for step in STEPS:
-            nodes_left = nodes[movable]
             ways = self._random.normal(size=(len(nodes_left), 3))
             ways /= norm(ways)[:, None]
             wanted = self._points[nodes_left] + self._reach(nodes_left)[:, None] * step * ways
@@ -205,9 +207,10 @@ class Projector:
 
     def _reach(self, nodes: Ints) -> Array:
         """The shortest edge (k,) at each node."""
-        found = np.empty(len(nodes))
-        for k, node in enumerate(nodes):
-            other = np.unique(self._tets[self._at(int(node))])
-            gaps = norm(self._points[other] - self._points[node])
-            found[k] = gaps[other != node].min()
-        return found
+        counts = self._first[nodes + 1] - self._first[nodes]
+        starts = np.cumsum(counts) - counts
+        rows = np.arange(counts.sum()) + np.repeat(self._first[nodes] - starts, counts)
+        owner, around = np.repeat(nodes, counts), self._tets[self._around[rows]]
+        gaps = norm(self._points[around] - self._points[owner][:, None])
+        gaps[around == owner[:, None]] = np.inf
+        return np.asarray(np.minimum.reduceat(gaps.min(axis=1), starts))

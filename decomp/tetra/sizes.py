@@ -23,7 +23,7 @@ from decomp.vectors import Array, cross, norm
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
-VOLUME, ASKED = 3e-3, 1.6e-3
+VOLUME, ASKED = 3e-3, 1.4e-3
 """Where edges of the wanted length would change a region's volume by more than the first part of
 it, they are made so short that it is the second: TetWild leaves edges up to 4/3 as long."""
 SLOPE = 0.35

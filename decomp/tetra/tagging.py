@@ -32,6 +32,11 @@ class Tagged:
     cells: Ints
     patches: Ints
 
+    def at(self, nodes: Ints) -> Tagged:
+        """Those of them that have some of the nodes."""
+        rows = np.isin(self.triangles, nodes).any(axis=1)
+        return Tagged(self.triangles[rows], self.cells[rows], self.patches[rows])
+
 
 class Tagger:
     """Finds the patches of triangles.
@@ -104,8 +109,8 @@ class Tagger:
         """
         rows = np.isin(faces.triangles, at).any(axis=1)
         now = self.tagged(points, part, Faces(faces.triangles[rows], faces.tets[rows]))
-        rows = np.isin(tagged.triangles, at).any(axis=1)
-        before = np.column_stack([np.sort(tagged.triangles[rows], axis=1), tagged.patches[rows]])
+        old = tagged.at(at)
+        before = np.column_stack([np.sort(old.triangles, axis=1), old.patches])
         after = np.column_stack([np.sort(now.triangles, axis=1), now.patches])
         return np.array_equal(np.unique(before, axis=0), np.unique(after, axis=0))
 
@@ -116,6 +121,7 @@ class Tagger:
     def owner(self, tagged: Tagged, nodes: Ints) -> Ints:
         """The part (k,) that the one face around each node belongs to; OUTSIDE for none or more."""
         found = np.full(len(nodes), OUTSIDE, dtype=np.int64)
+        tagged = tagged.at(nodes)
         for row, node in enumerate(nodes.tolist()):
             at = np.unique(tagged.patches[(tagged.triangles == node).any(axis=1)])
             sides = [self._plan.sides[patch] for patch in at.tolist() if self._plan.sides[patch]]

@@ -92,6 +92,11 @@ class Finder:
             patch: own for own in plan.between.values() for patch in own
         }
         self._lines: dict[frozenset[int], list[int]] = {}
+        self._corners = [self._kinds(around) for around in plan.around_corner]
+        self._corners_of: dict[int, list[int]] = {}
+        for number, kinds in enumerate(self._corners):
+            for kind in kinds:
+                self._corners_of.setdefault(kind, []).append(number)
         for number, around in enumerate(plan.around_line):
             kinds = self._kinds(around)
             if len(kinds) > 1:
@@ -169,13 +174,10 @@ class Finder:
 
     def _near_corner(self, places: Array, kinds: frozenset[int]) -> Ints:
         """The corner (k,) at each place where most of some patches meet, -1 for none."""
+        near_kinds = {k for kind in kinds for k in self._corners_of.get(kind, ())}
+        least = min(3, len(kinds))
         rows = np.array(
-            [
-                k
-                for k, around in enumerate(self._plan.around_corner)
-                if len(kinds & self._kinds(around)) >= min(3, len(kinds))
-            ],
-            dtype=np.int64,
+            sorted(k for k in near_kinds if len(kinds & self._corners[k]) >= least), dtype=np.int64
         )
         if not len(rows):
             return np.full(len(places), -1, dtype=np.int64)

@@ -13,13 +13,13 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.kernels.on_carriers import normals_at, projected
 from decomp.sites import SiteIndex
 from decomp.sites.occupancy import NOWHERE, on_boundary
 from decomp.tracing.balls import Balls, balls_at
 from decomp.tracing.compiled import scalar
 from decomp.tracing.edge_seeds import edge_jumps
 from decomp.tracing.equidistance import equidistant
-from decomp.tracing.on_carriers import normals_at, projected
 from decomp.tracing.probing import TOWARDS, Probe, inside
 from decomp.tracing.queries import RegionQueries, region_queries
 from decomp.tracing.shrinking import OSCULATES, TOUCHES

@@ -20,8 +20,8 @@ from decomp.kernels.carriers import (
     normal,
     signed_distance,
 )
+from decomp.kernels.on_carriers import normals_at, projected
 from decomp.kernels.records import Record
-from decomp.tracing.on_carriers import normals_at, projected
 from decomp.vectors import Array, direction, frozen
 
 POINT, AXIS = frozen([0.3, -0.2, 0.1]), direction([1, 2, 2], "axis")

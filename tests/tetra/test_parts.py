@@ -122,13 +122,26 @@ def test_a_node_without_room_is_merged_with_one_that_belongs_there_too() -> None
     kinds = {int(node): frozenset({1, 2}) for node in edge}
     merged = collapsed(points, tets, part, np.array([near]), kinds | {near: frozenset({1, 2})})
     assert merged is not None
-    fewer, left, labels = merged
-    assert len(fewer) == len(points) - 1
-    assert not (fewer == points[near]).all(axis=1).any()
-    assert (volumes(fewer, left) > 0).all()
-    assert volumes(fewer, left).sum() == pytest.approx(1, rel=1e-12)
+    left, labels = merged
+    assert np.setdiff1d(np.arange(len(points)), left).tolist() == [near]
+    assert (volumes(points, left) > 0).all()
+    assert volumes(points, left).sum() == pytest.approx(1, rel=1e-12)
     assert len(labels) == len(left) < len(tets)
     faces_of(left)
+
+
+@pytest.mark.parametrize("most", [1 << 21, 8])
+def test_triangles_are_paired_whatever_the_number_of_vertices(
+    most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, tets = grid(3)
+    monkeypatch.setattr("decomp.tetra.faces.MOST", most)
+    faces = faces_of(tets)
+    inner = faces.tets[:, 1] >= 0
+    assert (inner.sum(), (~inner).sum()) == (2 * len(tets) - 54, 108)
+    for triangle, pair in zip(faces.triangles[inner], faces.tets[inner], strict=True):
+        assert np.isin(triangle, tets[pair[0]]).all()
+        assert np.isin(triangle, tets[pair[1]]).all()
 
 
 def test_a_node_is_not_merged_with_one_that_belongs_elsewhere() -> None:

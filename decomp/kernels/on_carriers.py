@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.kernels.carriers import CarrierTable, foot, normal, signed_distance
-from decomp.tracing.compiled import scalar
+from decomp.kernels.compiled import scalar
 from decomp.vectors import Array, Ints
 
 STEPS = 2

@@ -1,0 +1,48 @@
+"""Sheets of one region that are asked for points of all of them at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from decomp.medial.incidence import Incidence
+from decomp.tracing.equidistance import equidistant
+from decomp.tracing.fields import site_fields
+from decomp.vectors import Array, Bools, Ints, norm
+
+CLEAR = 1e-9
+"""Points nearer to a site than this part of the size have no direction from it."""
+
+
+class SheetFamily:
+    """Sheets whose sites' feet are found without a known one near by.
+
+    Args:
+        incidence: of the region.
+        sites: of each of them.
+    """
+
+    def __init__(self, incidence: Incidence, sites: Sequence[tuple[int, int]]) -> None:
+        self._incidence = incidence
+        self._sites: Ints = np.array(sites, dtype=np.int64).reshape(-1, 2)
+
+    def place(self, which: Ints, points: Array) -> tuple[Array, Bools]:
+        """Points (k, 3), each moved onto a given member (k,), and whether that succeeded (k,)."""
+        it = self._incidence
+        feet = np.repeat(points[:, None], 2, axis=1)
+        found = equidistant(it.boundary, it.sites, self._sites[which], points, feet)
+        return found.points, found.converged
+
+    def normal(self, which: Ints, points: Array) -> tuple[Array, Bools]:
+        """Unit normals (k, 3) at points (k, 3) on given members (k,), and whether they are good.
+
+        Where one is not, its member has to be asked by itself.
+        """
+        it, pairs = self._incidence, self._sites[which]
+        one, two = (
+            site_fields(it.boundary, it.sites, pairs[:, k], points, points).gradient for k in (0, 1)
+        )
+        length = norm(one - two)
+        good = length > CLEAR
+        return (one - two) / np.where(good, length, 1.0)[:, None], good
