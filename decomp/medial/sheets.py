@@ -12,6 +12,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import coo_array  # type: ignore[import-untyped]
+from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
 from decomp.complex.domains import Domain
 from decomp.complex.model import SurfaceElement
@@ -149,6 +151,8 @@ class SheetMaker:
                 return []  # a curve on which the two sites are near, but no sheet beside it
             where = place(self._points[used[0]])
             raise CrossingError(f"curves have one chord near {where}", segments)
+        if not len(isolated) and not _encloses(segments):
+            return []  # nor beside one of several chords
         points = self._points[used]
         feet = self._incidence.feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
@@ -305,3 +309,11 @@ def segments_of(lines: Sequence[Ints]) -> Ints:
         return np.empty((0, 2), dtype=np.int64)
     both = np.sort(np.concatenate(parts), axis=1)
     return np.unique(both, axis=0)
+
+
+def _encloses(segments: Ints) -> bool:
+    """Whether segments (m, 2) of vertices make a loop."""
+    used, local = np.unique(segments, return_inverse=True)
+    one, other = local.reshape(-1, 2).T
+    joins = coo_array((np.ones(len(one)), (one, other)), shape=(len(used), len(used)))
+    return len(segments) > len(used) - int(connected_components(joins, directed=False)[0])

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity, Face, RegionBoundary
 from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
@@ -56,6 +57,12 @@ class Arcs:
         self._boundary, self._sites, self._queries = boundary, sites, queries
         self._region = region
         self._size = boundary.diagonal
+        self._beside: dict[int, list[int]] = {}
+        for edge in boundary.edges:
+            if edge.convexity is Convexity.SMOOTH:
+                for one, other in (edge.faces, edge.faces[::-1]):
+                    self._beside.setdefault(one, []).append(other)
+        self._vertices = cKDTree(np.array([v.point for v in boundary.vertices]).reshape(-1, 3))
         self._round = {
             k: face
             for k, face in enumerate(boundary.faces)
@@ -80,6 +87,10 @@ class Arcs:
         single = [k for k, sites in enumerate(touching.sites) if not self._is_on(sites, balls)]
         of_patches = self._boundary, self._sites, self._region, self._queries, balls
         return patch_rays(*of_patches, touching, single)
+
+    def touches_along(self, touching: Contacts, point: Array) -> bool:
+        """Whether the ball about a point touches a face all along an arc."""
+        return any(self._osculating(some, touching, point) for some in (self._round, self._balls))
 
     def _of_arcs(self, touching: Contacts, point: Array) -> list[SeamRay]:
         faces = self._osculating(self._round, touching, point)
@@ -165,6 +176,10 @@ class Arcs:
     def _osculating(self, faces: Mapping[int, Face], touching: Contacts, point: Array) -> set[int]:
         """Those of some faces that a ball about a point touches along an arc."""
         at = {face for sites in touching.sites for k in sites for face in self._faces_at(k)}
+        # a contact can be on the border of a face that touches all along, without being told so
+        at |= {face for k in at for face in self._beside.get(k, ())}
+        for near in self._vertices.query_ball_point(touching.feet, ON_LOCUS * self._size):
+            at |= {face for k in near for face in self._boundary.vertices[k].faces}
         return {k for k in at & faces.keys() if self._osculates(faces[k], touching.radius, point)}
 
     def _osculates(self, face: Face, radius: float, point: Array) -> bool:

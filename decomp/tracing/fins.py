@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.tracing.arriving import lagrange_weights
+from decomp.tracing.contacts import Contacts
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
@@ -55,6 +56,30 @@ def fin(
             behind = [s for s in found[:-1] if float((s.point - start.point) @ start.tangent) > 0]
             return clear[-1] + 1, [*behind, found[-1]]
     return None
+
+
+def with_one_foot(touching: Contacts, end: State) -> Contacts:
+    """Contacts at the end of a seam, with one foot where two of the seam's have run together.
+
+    About it their site is as far in fourth order, so that its feet can be found all around.
+    """
+    for k, site in enumerate(end.sites):
+        foot = end.feet[k]
+        if not any((end.feet[j] == foot).all() for j in range(k) if end.sites[j] == site):
+            continue
+        gaps = norm(touching.feet - foot)
+        near = [
+            j
+            for j, sites in enumerate(touching.sites)
+            if site in sites and gaps[j] <= FEWEST * touching.radius
+        ]
+        far = [j for j in range(len(touching.feet)) if j not in near]
+        if len(near) > 1:
+            feet = np.concatenate([touching.feet[far], foot[None]])
+            one = tuple(dict.fromkeys(s for j in near for s in touching.sites[j]))
+            sites = (*(touching.sites[j] for j in far), one)
+            touching = Contacts(touching.radius, feet, sites, (end.point - feet) / touching.radius)
+    return touching
 
 
 def _read_off(points: SeamPoints, wide: State, pair: tuple[int, int]) -> list[State] | None:

@@ -205,12 +205,28 @@ class _Grower:
             GeometryError: there is one; says where.
         """
         for point, feet in self._lost:
-            on_locus = self._points.on_locus(self._points.touched(point, feet), point)
-            if not on_locus and not self._seams.near(point, BESIDE * float(norm(point - feet[0]))):
+            if self._is_on_locus(point, feet):
+                continue
+            if not self._seams.near(point, BESIDE * float(norm(point - feet[0]))):
                 raise GeometryError(f"the seam near {place(point)} cannot be found exactly")
 
+    def _is_on_locus(self, point: Array, feet: Array) -> bool:
+        """Whether a point is a centre of curvature of a face that it touches.
+
+        Feet can then be anywhere on its carrier; at an end of the face it shares another's contact.
+        """
+        if self._points.on_locus(self._points.touched(point, feet), point):
+            return True
+        return self._nodes.is_on_locus(point)
+
     def _start_inside(self, state: State) -> None:
-        """Trace the seam through a point, unless sheets only meet there in a reflexive point."""
+        """Trace the seam through a point, unless sheets only meet there in a reflexive point.
+
+        From a node all seams have been traced, and feet of seeds can be too far off to know them.
+        """
+        known = self._seams.hold(state.point[None], state.feet[None])[0]
+        if known or self._nodes.known(state.point) is not None:
+            return
         if self._points.on_locus(state.sites, state.point) or self._nodes.is_centre(state):
             return
         touching = self._points.contacts.at(state.point, SLACK * self._size)

@@ -12,6 +12,7 @@ from decomp.errors import GeometryError
 from decomp.tracing.arcs import Arcs
 from decomp.tracing.departures import departures
 from decomp.tracing.equidistance import balanced
+from decomp.tracing.fins import with_one_foot
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay
 from decomp.tracing.seam_graph_model import Node
@@ -91,13 +92,17 @@ class GraphNodes:
     def end(self, last: State) -> int:
         """The node at which a seam ends by itself."""
         centre = self._arcs.centre(last)
-        return self.at(last.point if centre is None else centre, ending=True)
+        return self.at(last.point if centre is None else centre, ending=last)
 
     def is_centre(self, state: State) -> bool:
         """Whether a point is the centre of a ball's face at which all its contacts are."""
         return self._arcs.centre(state) is not None
 
-    def at(self, point: Array, ending: bool = False) -> int:
+    def is_on_locus(self, point: Array) -> bool:
+        """Whether a point is a centre of curvature of a face that its ball touches."""
+        return self._arcs.touches_along(self._points.contacts.at(point, SLACK * self._size), point)
+
+    def at(self, point: Array, ending: State | None = None) -> int:
         """The node at a point, a new one unless it is known.
 
         A fin, or a seam between feet of one edge, can end on a reflexive locus, from which a whole
@@ -108,12 +113,14 @@ class GraphNodes:
         if known is not None:
             return known
         touching = self._points.contacts.at(point, SLACK * self._size)
+        if ending is not None:
+            touching = with_one_foot(touching, ending)
         touching, leaving = self._arcs.leaving(touching, point)
         rays, states = [], []
         arcs = {
             k
             for k, sites in enumerate(touching.sites)
-            if ending and self._points.on_locus(sites, point)
+            if ending is not None and self._points.on_locus(sites, point)
         }
         for ray in leaving:
             if arcs & set(ray.contacts):

@@ -24,6 +24,8 @@ from decomp.vectors import Array, Ints, frame, norm
 
 SAMPLES = 257
 """Points of every edge of the face."""
+SAME = 1e-6
+"""Contacts nearer to the end of an edge than this part of the radius are at it."""
 NEXT = 6.0
 """Points of one edge are two contacts if they are so many samples apart."""
 ON_BOUNDARY = 1e-9
@@ -74,7 +76,7 @@ def patch_rays(
             chosen.append((kinds, way, simplex))
     if not chosen:
         return touching, []
-    feet, groups = [touching.feet[list(single)]], [touching.sites[k] for k in single]
+    feet, groups = [touching.feet[corners.single]], [touching.sites[k] for k in corners.single]
     rays = []
     for _, way, simplex in chosen:
         x, y = frame(way)
@@ -94,6 +96,7 @@ class _Corners:
     """Points of edges of some faces, and single contacts.
 
     Attributes:
+        single: the contacts that are no points of these edges.
         feet: (n, 3).
         kinds: for each the edges that it is on, or a number of its own.
         groups: the sites of each.
@@ -109,27 +112,41 @@ class _Corners:
         single: Sequence[int],
     ) -> None:
         number = {(s.kind, s.index): k for k, s in enumerate(sites) if s.region == region}
-        feet = [touching.feet[list(single)]]
-        self.kinds = [frozenset({-1 - k}) for k in single]
-        self.groups = [touching.sites[k] for k in single]
+        edges = [
+            (k, edge)
+            for k, edge in enumerate(boundary.edges)
+            if faces & set(edge.faces) and edge.convexity is not Convexity.CONVEX
+        ]
+        ends = {vertex for _, edge in edges for vertex in edge.vertices or ()}
+        corners = np.array([boundary.vertices[v].point for v in ends]).reshape(-1, 3)
+        # where a smooth edge ends another face's contact is a corner, too
+        self.single = [
+            k for k in single if not _is_among(touching.feet[k], corners, touching.radius)
+        ]
+        feet = [touching.feet[self.single]]
+        self.kinds = [frozenset({-1 - k}) for k in self.single]
+        self.groups = [touching.sites[k] for k in self.single]
         self._spacing: dict[int, float] = {}
         self._circles = frozenset[int]()
-        for k, edge in enumerate(boundary.edges):
-            own = number.get((SiteKind.EDGE, k))
-            if own is None or not faces & set(edge.faces) or edge.convexity is Convexity.CONVEX:
-                continue
+        for k, edge in edges:
             along = np.linspace(edge.start, edge.end, SAMPLES)
             feet.append(edge.curve.point(edge.curve.wrapped(along)))
-            self._spacing[own] = float(norm(np.diff(feet[-1], axis=0)).max())
+            self._spacing[k] = float(norm(np.diff(feet[-1], axis=0)).max())
             if isinstance(edge.curve, Circle):
-                self._circles |= {own}
-            self.kinds += [frozenset({own})] * SAMPLES
-            self.groups += [(own,)] * SAMPLES
+                self._circles |= {k}
+            own = number.get((SiteKind.EDGE, k))
+            # a smooth edge is no site: its faces hold the contact
+            group = tuple(number[SiteKind.FACE, f] for f in edge.faces) if own is None else (own,)
+            self.kinds += [frozenset({k})] * SAMPLES
+            self.groups += [group] * SAMPLES
             for end, vertex in zip((-SAMPLES, -1), edge.vertices or (), strict=False):
-                around = [number.get((SiteKind.EDGE, e)) for e in boundary.vertices[vertex].edges]
-                self.kinds[end] = frozenset(s for s in around if s is not None)
                 corner = number.get((SiteKind.VERTEX, vertex))
-                self.groups[end] = (own,) if corner is None else (corner, own)
+                around = boundary.vertices[vertex]
+                self.kinds[end] = frozenset(around.edges)
+                if corner is not None:
+                    self.groups[end] = (corner, *group)
+                elif own is None:
+                    self.groups[end] = tuple(number[SiteKind.FACE, f] for f in around.faces)
         self.feet = np.concatenate(feet)
 
     def are_alike(self, corners: Ints) -> bool:
@@ -145,3 +162,7 @@ class _Corners:
             if any(gap <= NEXT * self._spacing[edge] for edge in kinds[i] & kinds[j]):
                 return True
         return False
+
+
+def _is_among(foot: Array, corners: Array, radius: float) -> bool:
+    return bool((norm(corners - foot) <= SAME * radius).any())
