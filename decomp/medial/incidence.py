@@ -81,7 +81,7 @@ class Incidence:
         return np.asarray(along / norm(along))
 
     def feet(self, sites: Sequence[int], points: Array) -> Array:
-        """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest samples.
+        """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest chords.
 
         Where that leads past an edge's end the foot is near the nearest of its other samples that
         are nearer than their neighbours. An edge that stands twice among the sites has two feet,
@@ -97,7 +97,7 @@ class Incidence:
             guess = points
             if it.kind is SiteKind.EDGE:
                 samples = self.boundary.edges[it.index].samples
-                guess = samples[nearest_rows(samples, points)]
+                guess = _on_chords(samples, points)
             found[:, column] = self._feet(site, points, guess)
             if it.kind is SiteKind.EDGE and not self.boundary.edges[it.index].closed:
                 past = np.flatnonzero(_past_ends(samples, found[:, column], NEAR * self._size))
@@ -237,6 +237,22 @@ def _past_ends(samples: Array, feet: Array, slack: float) -> Bools:
     for end, before in ((0, 1), (len(samples) - 1, len(samples) - 2)):
         way = samples[end] - samples[before]
         result |= (nearest == end) & ((feet - samples[end]) @ way > slack * float(norm(way)))
+    return result
+
+
+def _on_chords(samples: Array, points: Array) -> Array:
+    """The points (k, 3) next to points (k, 3) on the two chords at their nearest samples (n, 3).
+
+    From a sample itself no foot is found where it is an end at which carriers touch.
+    """
+    at = nearest_rows(samples, points)
+    result, least = samples[at], np.full(len(points), np.inf)
+    for first in (np.maximum(at - 1, 0), np.minimum(at, len(samples) - 2)):
+        start, way = samples[first], samples[first + 1] - samples[first]
+        along = dot(points - start, way) / np.maximum(dot(way, way), 1e-300)
+        near = start + np.clip(along, 0.0, 1.0)[:, None] * way
+        gap = norm(points - near)
+        result, least = np.where((gap < least)[:, None], near, result), np.minimum(gap, least)
     return result
 
 

@@ -97,9 +97,13 @@ def _relabelled(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> Cu
 
 
 def _alike(incidence: Incidence, a: int, b: int) -> bool:
-    """Whether two sites are different faces on one carrier."""
-    one, two = incidence.sites[a], incidence.sites[b]
-    if one.kind is not SiteKind.FACE or two.kind is not SiteKind.FACE:
+    """Whether two sites are different faces on one carrier, or edges on one pair of carriers."""
+    one, two, boundary = incidence.sites[a], incidence.sites[b], incidence.boundary
+    if one.kind is not two.kind:
         return False
-    faces = incidence.boundary.faces
-    return faces[one.index].carrier == faces[two.index].carrier
+    if one.kind is SiteKind.FACE:
+        return boundary.faces[one.index].carrier == boundary.faces[two.index].carrier
+    if one.kind is SiteKind.EDGE:
+        edges = boundary.edges[one.index], boundary.edges[two.index]
+        return set(edges[0].carriers) == set(edges[1].carriers)
+    return False

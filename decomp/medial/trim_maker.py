@@ -79,6 +79,7 @@ class _Centres:
 
     def __init__(self, points: Array, slack: float) -> None:
         self._points, self._slack = points, slack
+        self.closed = bool(norm(points[-1] - points[0]) <= slack)
         self._tree = cKDTree(points)
         self._reach = float(norm(np.diff(points, axis=0)).max())
 
@@ -92,7 +93,7 @@ class _Centres:
         last = len(self._points) - 1
         beside = np.where(rows == 0, 1, np.where(rows == last, last - 1, rows))
         inwards = self._points[beside] - self._points[rows]
-        past = dot(points - self._points[rows], inwards) < 0
+        past = (dot(points - self._points[rows], inwards) < 0) & (not self.closed)
         return bool(((gaps <= self._reach) & (~past | (gaps <= self._slack))).all())
 
 
@@ -215,7 +216,7 @@ class TrimMaker:
             return np.array(ends), run.s[[0, -1]]
         centres = _Centres(run.points, AT_END * self._size)
         line = [ends[0]]
-        while line[-1] != ends[1]:
+        while line[-1] != ends[1] or (centres.closed and len(line) == 1):
             step = self._next_on_locus(line, centres)
             if step is None:
                 middle = place(run.points[len(run.points) // 2])

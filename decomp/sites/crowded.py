@@ -10,14 +10,18 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
+from decomp.curves.base import Curve
 from decomp.sites.occupancy import ANYWHERE, OccupancyTree
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array, Ints, dot, norm
 
 FaceLookup = Callable[[int, int, Array], Ints]
 """(region, carrier, points on it) -> the faces of the region that hold the points."""
 
 UNKNOWN, SEVERAL = -2, -1
 NEIGHBOURS = (12, 96)
+STEPS = 8
+EQUAL = 1e-6
+"""Distances that differ by less than this part of them are equal."""
 
 
 class FaceFinder:
@@ -63,6 +67,8 @@ class FaceFinder:
             for carrier, rows in _groups(carriers, np.flatnonzero(faces == SEVERAL)):
                 faces[rows] = self._edges_on(carrier).owners(feet[rows], count)
         for carrier, rows in _groups(carriers, np.flatnonzero(faces == SEVERAL)):
+            faces[rows] = self._edges_on(carrier).nearest(feet[rows])
+        for carrier, rows in _groups(carriers, np.flatnonzero(faces == SEVERAL)):
             faces[rows] = self._lookup(self._region, carrier, feet[rows])
         return faces
 
@@ -83,11 +89,18 @@ class FaceFinder:
 
 @dataclass(frozen=True, eq=False)
 class _EdgeBalls:
-    """Balls that cover the edges of the faces on one carrier: centres, radii, and the faces."""
+    """Balls that cover the edges of the faces on one carrier.
+
+    Args:
+        centres, radii: of the balls (n,).
+        faces: the face (n,) of each.
+        edges: curves with their start, their end and the number of balls on them, in order.
+    """
 
     centres: cKDTree
     radii: Array
     faces: Ints
+    edges: list[tuple[Curve, float, float, int]]
 
     def within(self, centre: Array, radius: float) -> Ints:
         """The faces that may have an edge within a ball."""
@@ -112,6 +125,41 @@ class _EdgeBalls:
             certain &= gaps[:, -1] - self.radii.max() > bound
         return np.where(certain, owner, SEVERAL)
 
+    def nearest(self, points: Array) -> Ints:
+        """The faces with the edges exactly nearest to points (n, 3), SEVERAL for equally near ones.
+
+        Near a point where edges cross tangentially balls say nothing.
+        """
+        return np.array([self._nearest(point) for point in points], dtype=np.int64)
+
+    def _nearest(self, point: Array) -> int:
+        gaps = np.linalg.norm(self.centres.data - point, axis=1)
+        near = gaps - self.radii <= (gaps + self.radii).min()
+        least: dict[int, float] = {}
+        first = 0
+        for curve, start, end, count in self.edges:
+            rows = np.flatnonzero(near[first : first + count])
+            if len(rows):
+                face, part = int(self.faces[first]), (end - start) / count
+                low: Array = start + rows.astype(np.float64) * part
+                gap = _least_gap(curve, low, low + part, point)
+                least[face] = min(least.get(face, np.inf), gap)
+            first += count
+        order = sorted(least, key=lambda face: least[face])
+        if len(order) > 1 and least[order[1]] <= (1 + EQUAL) * least[order[0]]:
+            return SEVERAL
+        return order[0]
+
+
+def _least_gap(curve: Curve, low: Array, high: Array, point: Array) -> float:
+    """The least distance of a point (3,) from parts (k,) of a curve that are close to it."""
+    t = (low + high) / 2
+    for _ in range(STEPS):
+        tangent = curve.derivative(curve.wrapped(t))
+        step = dot(point - curve.point(curve.wrapped(t)), tangent) / dot(tangent, tangent)
+        t = np.clip(t + step, low, high)
+    return float(norm(point - curve.point(curve.wrapped(t))).min())
+
 
 def _groups(carriers: Ints, rows: Ints) -> list[tuple[int, Ints]]:
     """Rows by their carriers."""
@@ -126,15 +174,16 @@ def _edge_balls(boundary: RegionBoundary, carrier: int) -> _EdgeBalls:
         if boundary.faces[face].carrier == carrier
     ]
     chord = min(edge.length for edge, _ in on_carrier) / 16
-    centres, radii, faces = [], [], []
+    centres, radii, faces, edges = [], [], [], []
     for edge, face in on_carrier:
         count = int(np.clip(edge.length / chord, 32, 1024))
         points = edge.curve.point(np.linspace(edge.start, edge.end, count + 1))
         centres.append((points[1:] + points[:-1]) / 2)
         radii.append(0.75 * np.linalg.norm(np.diff(points, axis=0), axis=1))
         faces.append(np.full(count, face))
+        edges.append((edge.curve, edge.start, edge.end, count))
     tree = cKDTree(np.concatenate(centres))
-    return _EdgeBalls(tree, np.concatenate(radii), np.concatenate(faces))
+    return _EdgeBalls(tree, np.concatenate(radii), np.concatenate(faces), edges)
 
 
 def leaf_balls(occupancy: OccupancyTree) -> Array:

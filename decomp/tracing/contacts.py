@@ -19,6 +19,7 @@ from decomp.tracing.queries import region_queries
 from decomp.tracing.supports import support_table
 from decomp.vectors import Array, norm
 
+ON_EDGE = 1e-9
 EXACT = 1e-12
 """Feet on the boundary are as near as queries say, to this part of the size."""
 
@@ -57,6 +58,7 @@ class ContactFinder:
         self._queries = region_queries(index, region)
         self._probe = self._queries.probe
         self._near = _neighbours(index.sites, boundary, region)
+        self._parts = _parts(index.sites, boundary, region)
         self._feet = np.empty((count_of(self._probe.sites), 3))
 
     def neighbours(self, site: int) -> tuple[int, ...]:
@@ -125,8 +127,24 @@ class ContactFinder:
             )
             same = (norm(field.foot - spots) <= gap) & (np.abs(field.distance - radius) <= gap)
             for (number, other), good in zip(which, same, strict=True):
-                if good:
+                if good and self.is_on(other, groups[number][0]):
                     groups[number][1].add(other)
+
+    def is_on(self, site: int, foot: Array) -> bool:
+        """Whether a foot (3,) on an edge's carriers is on the edge; true of all other sites."""
+        if site not in self._parts:
+            return True
+        edge = self._boundary.edges[self._sites[site].index]
+        t = edge.curve.parameter(foot)
+        slack = ON_EDGE * self._boundary.diagonal
+        if float(norm(edge.curve.point(edge.curve.wrapped(t)) - foot)) > slack:
+            return False
+        if any(float(norm(end - foot)) <= slack for end in edge.samples[[0, -1]]):
+            return True
+        past = float(t) - edge.start
+        if edge.curve.closed:
+            past %= edge.curve.period
+        return 0 <= past <= edge.end - edge.start
 
 
 @scalar
@@ -154,6 +172,16 @@ def close_feet(probe: Probe, x: float, y: float, z: float, reach: float, feet: A
             feet[count, 0], feet[count, 1], feet[count, 2] = qx, qy, qz
             count += 1
     return count
+
+
+def _parts(sites: Sequence[Site], boundary: RegionBoundary, region: int) -> set[int]:
+    """The edges that are not all in which their carriers meet: feet can be on another one."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for number, site in enumerate(sites):
+        if site.region == region and site.kind is SiteKind.EDGE:
+            carriers = tuple(sorted(boundary.edges[site.index].carriers))
+            found.setdefault(carriers, []).append(number)
+    return {number for own in found.values() if len(own) > 1 for number in own}
 
 
 def _neighbours(

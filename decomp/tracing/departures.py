@@ -152,7 +152,9 @@ def _local(
     true &= norm(feet - touching.feet[contacts]) <= 0.5 * touching.radius
     kept: list[int] = []
     for k in np.flatnonzero(true):
-        if all(float(norm(feet[k] - feet[j])) > SAME * h for j in kept):
+        if points.contacts.is_on(int(sites[k]), feet[k]) and all(
+            float(norm(feet[k] - feet[j])) > SAME * h for j in kept
+        ):
             kept.append(int(k))
     if set(contacts[kept].tolist()) != set(ray.contacts):
         return None

@@ -163,7 +163,7 @@ class _Grower:
                 traced = self._trace(self._nodes.starts[node, ray])
                 number = self._new_number()
                 self._nodes.taken[node, ray] = number
-                seam = self._between(traced, (node, self._end(traced, number)))
+                seam = self._between(traced, (node, self._end(traced, number, node)))
                 self._seams.add(number, seam)
 
     def start_at(self, seeds: Seeds) -> int:
@@ -257,10 +257,15 @@ class _Grower:
     def _trace(self, start: State) -> Traced:
         return self._tracer.trace(start, lambda point: self._nodes.known(point) is not None)
 
-    def _end(self, traced: Traced, number: int) -> int:
-        """The node at the end of a traced seam, its ray there taken by the seam."""
+    def _end(self, traced: Traced, number: int, start: int = -1) -> int:
+        """The node at the end of a traced seam, its ray there taken by the seam.
+
+        One that comes back to its `start` ends there.
+        """
         last = traced.last
-        if traced.end is SeamEnd.BOUNDARY:
+        if traced.end is SeamEnd.CLOSED:
+            node = start
+        elif traced.end is SeamEnd.BOUNDARY:
             node = self._nodes.on_boundary(last)
         elif traced.end in (SeamEnd.SPLIT, SeamEnd.FIN):
             node = self._nodes.end(last)
