@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity
 from decomp.complex.model import Line, LineKind, Patch
+from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.medial.curve_elements import RayCurve
 from decomp.medial.pieces import CurvePiece
@@ -22,7 +23,10 @@ from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheets import SheetMaker, SheetPart
 from decomp.medial.trim_maker import AT_END, BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
+from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.contacts import contacts
+from decomp.tracing.loci import axis_gap, on_locus
 from decomp.vectors import Array, Ints, norm, place
 
 ALONG_LOCI = 24
@@ -236,8 +240,38 @@ class RegionAssembler:
                     raise GeometryError(
                         f"the reflexive locus that ends at {place(end)} has no node"
                     )
-                for site in part.sites:
-                    pair = (min(site, other), max(site, other))
+                for pair in self._pointed(part.sites, other, end):
                     if nodes[number] not in found.setdefault(pair, []):
                         found[pair].append(nodes[number])
+        return found
+
+    def _pointed(self, sites: Sequence[int], other: int, end: Array) -> set[tuple[int, int]]:
+        """The pairs of sites whose sheets can be pointed at an end of a locus of some sites.
+
+        One of the two is as near all around: a site of the locus, or one whose own locus has no
+        length as it ends there too.
+        """
+        incidence, slack = self._curves.incidence, AT_END * self._size
+        boundary, region = incidence.boundary, incidence.region
+        touching = contacts(self._index, boundary, region, end, slack)
+        touched = {site for group in touching.sites for site in group} | {other, *sites}
+        touched |= self._edges_about(touched, touching.radius, end)
+        around = set(sites)
+        for site in touched:
+            if on_locus(boundary, incidence.sites, [site], end[None], AT_END)[0]:
+                around.add(site)
+        return {(min(a, b), max(a, b)) for a in around for b in touched if a != b}
+
+    def _edges_about(self, sites: Collection[int], radius: float, end: Array) -> set[int]:
+        """Circular reentrant edges of faces that are touched all along from the end of a locus."""
+        incidence, found = self._curves.incidence, set()
+        for number in sites:
+            it = incidence.sites[number]
+            near = incidence.edges_of_face[it.index] if it.kind is SiteKind.FACE else []
+            for edge in near:
+                curve = incidence.boundary.edges[edge].curve
+                if edge in incidence.edge_site and isinstance(curve, Circle):
+                    away = float(np.hypot(norm(end - curve.centre), curve.radius)) - radius
+                    if max(float(axis_gap(curve, end[None])[0]), abs(away)) <= AT_END * self._size:
+                        found.add(incidence.edge_site[edge])
         return found

@@ -8,6 +8,8 @@ that the face's maximal balls touch on their far side changes with a jump, a sea
 
 from __future__ import annotations
 
+from contextlib import suppress
+
 import numpy as np
 
 from decomp.boundary.topology import Convexity, RegionBoundary
@@ -37,7 +39,8 @@ APART = 1e-3
 """Feet nearer than this part of the radius are one."""
 LONGEST = (0.05, 5e-3, 1e-3)
 """The longest steps along seams, as parts of the size: a step can lead past a short stretch in
-which a seam has other sites. This shows when two arrive where one does; then steps are shorter."""
+which a seam has other sites. What then fails is tried again with shorter ones; the shortest are for
+seams of which two arrive where one does."""
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
 
@@ -57,11 +60,10 @@ def seam_graph(
     Raises:
         GeometryError: a seam cannot be followed; says where.
     """
-    for longest in LONGEST[:-1]:
-        try:
-            return _seam_graph(_Grower(index, boundary, region, longest), samples, seed)
-        except OversteppedError:
-            continue
+    with suppress(GeometryError):  # whatever it is, a step too long can be why
+        return _seam_graph(_Grower(index, boundary, region, LONGEST[0]), samples, seed)
+    with suppress(OversteppedError):
+        return _seam_graph(_Grower(index, boundary, region, LONGEST[1]), samples, seed)
     return _seam_graph(_Grower(index, boundary, region, LONGEST[-1]), samples, seed)
 
 
