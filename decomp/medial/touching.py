@@ -64,7 +64,7 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
         def angle(face: int) -> Measure:
             def measure(points: Array) -> Array:
                 q = feet(points)
-                way = (points - q) / norm(points - q)[:, None]
+                way = (points - q) / np.maximum(norm(points - q), 1e-300)[:, None]
                 return norm(way - incidence.inward(face, q))
 
             return measure

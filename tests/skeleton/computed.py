@@ -19,6 +19,7 @@ from decomp.errors import GeometryError
 from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
 from decomp.vectors import Array
 from tests.corpus.files import FILES
+from tests.skeleton.machine_parts import PARTS
 from tests.skeleton.shapes import SHAPES
 from tests.solids import SOLIDS
 
@@ -72,10 +73,11 @@ def param(name: str, *values: object) -> pytest.ParameterSet:
 
 
 def source_of(name: str) -> Solid | Path:
-    """A solid of the shared table, a shape of these tests or a file of the corpus."""
+    """A solid of the shared table, a shape or part of these tests or a file of the corpus."""
     if name in SOLIDS:
         return SOLIDS[name].make()
-    return SHAPES[name]() if name in SHAPES else FILES[name]
+    made = SHAPES | PARTS
+    return made[name]() if name in made else FILES[name]
 
 
 @cache

@@ -13,11 +13,12 @@ from decomp.certificate.evidence import Evidence
 from decomp.complex.model import PatchKind
 from tests.corpus.files import FILES
 from tests.skeleton.computed import TOLERANCE, param, skeleton_of, source_of
+from tests.skeleton.machine_parts import PARTS
 from tests.skeleton.on_equations import off_equations
 from tests.skeleton.shapes import SHAPES
 from tests.solids import SOLIDS
 
-MODELS = [param(name) for name in (*SOLIDS, *SHAPES, *FILES)]
+MODELS = [param(name) for name in (*SOLIDS, *SHAPES, *PARTS, *FILES)]
 
 
 @pytest.mark.parametrize("name", MODELS)
