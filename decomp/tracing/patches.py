@@ -117,6 +117,7 @@ class _Corners:
             for k, edge in enumerate(boundary.edges)
             if faces & set(edge.faces) and edge.convexity is not Convexity.CONVEX
         ]
+        numbers = {k for k, _ in edges}
         ends = {vertex for _, edge in edges for vertex in edge.vertices or ()}
         corners = np.array([boundary.vertices[v].point for v in ends]).reshape(-1, 3)
         # where a smooth edge ends another face's contact is a corner, too
@@ -142,7 +143,7 @@ class _Corners:
             for end, vertex in zip((-SAMPLES, -1), edge.vertices or (), strict=False):
                 corner = number.get((SiteKind.VERTEX, vertex))
                 around = boundary.vertices[vertex]
-                self.kinds[end] = frozenset(around.edges)
+                self.kinds[end] = frozenset(around.edges) & numbers
                 if corner is not None:
                     self.groups[end] = (corner, *group)
                 elif own is None:
