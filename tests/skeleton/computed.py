@@ -15,7 +15,6 @@ import pytest
 
 import decomp
 from decomp.csg.solid import Solid
-from decomp.errors import GeometryError
 from decomp.medial.result import RegionSkeleton, Sheet, Skeleton
 from decomp.vectors import Array
 from tests.corpus.files import FILES
@@ -52,12 +51,6 @@ LONG = {
 UNFINISHED: dict[str, str] = {}
 """Models whose skeleton cannot be computed yet, and why."""
 
-ROUNDING = {
-    "wide offset tee": "an edge's sheet with itself is thin beside a seam with three feet on it; "
-    "which of equally near known points serve depends on the processor's rounding",
-}
-"""Models whose skeleton is computed on some machines only, and why."""
-
 
 def param(name: str, *values: object) -> pytest.ParameterSet:
     """A test's parameters, marked if the model is known to fail, or to take long."""
@@ -65,8 +58,6 @@ def param(name: str, *values: object) -> pytest.ParameterSet:
     if name in UNFINISHED:
         reason = UNFINISHED[name]
         marks.append(pytest.mark.xfail(reason=reason, strict=True))
-    if name in ROUNDING:
-        marks.append(pytest.mark.xfail(reason=ROUNDING[name], raises=GeometryError, strict=False))
     if name in SLOW | LONG:
         marks.append(pytest.mark.slow)
     return pytest.param(name, *values, marks=marks)
