@@ -44,7 +44,8 @@ def inner_radius(carrier: Carrier, outward: int, points: Array) -> Array:
             return np.full(len(points), carrier.minor)
         off = _off_axis(points - carrier.centre, carrier.axis)
         # from the tube's inner side: beyond the tube the normal goes on to the axis
-        return np.asarray(off * carrier.minor / (carrier.major - off))
+        with np.errstate(divide="ignore"):  # at the tube's top normals are parallel to the axis
+            return np.asarray(off * carrier.minor / (carrier.major - off))
     raise GeometryError(f"a {carrier.kind} has no reflexive locus")
 
 

@@ -79,7 +79,8 @@ class _Centres:
 
     def __init__(self, points: Array, slack: float) -> None:
         self._points, self._slack = points, slack
-        self.closed = bool(norm(points[-1] - points[0]) <= slack)
+        away = norm(points - points[0])
+        self.closed = bool(away[-1] <= slack < away.max())
         self._tree = cKDTree(points)
         self._reach = float(norm(np.diff(points, axis=0)).max())
 
@@ -201,8 +202,8 @@ class TrimMaker:
         runs += [self._on_locus(run) for run in self._curves.runs if run.over == number]
         runs.sort(key=lambda run: float(run[1].mean()))
         lines, parameters = [runs[0][0]], [runs[0][1]]
-        for line, s in runs[1:]:
-            if line[0] != lines[-1][-1]:
+        for (before, _), (line, s) in itertools.pairwise(runs):
+            if line[0] != before[-1]:
                 where = place(self._points[line[0]])
                 raise GeometryError(f"the trim near {where} has a gap")
             lines.append(line[1:])

@@ -99,7 +99,10 @@ class Arcs:
         edges = {k for k in at & circles.keys() if self._is_about(circles[k], touching, point)}
         if not faces and not edges:
             return seam_rays(touching.gradients)
-        on = [self._is_on(sites, faces, edges) for sites in touching.sites]
+        on = [
+            self._is_on(sites, faces, edges) or self._is_at_border(foot, faces)
+            for sites, foot in zip(touching.sites, touching.feet, strict=True)
+        ]
         inner = [self._is_inside(sites, faces, edges) for sites in touching.sites]
         corners = np.flatnonzero(~np.array(inner))
         if len(corners) < 3:
@@ -199,6 +202,11 @@ class Arcs:
         return any(
             faces & self._faces_at(site) or self._edges_at(site) & set(edges) for site in sites
         )
+
+    def _is_at_border(self, foot: Array, faces: set[int]) -> bool:
+        """Whether a contact of another face is where that goes on into one of some round ones."""
+        carriers = [self._boundary.carriers[self._boundary.faces[k].carrier] for k in faces]
+        return any(abs(float(c.signed_distance(foot))) <= ON_LOCUS * self._size for c in carriers)
 
     def _is_inside(self, sites: tuple[int, ...], faces: set[int], edges: set[int]) -> bool:
         """Whether a contact is a point of an arc, and not its end."""

@@ -55,6 +55,14 @@ def rounded_box() -> Solid:
     return solid
 
 
+def drilled_plate() -> Solid:
+    """Twice as thick as its corners' radius, so that their axes end in one point of the skeleton."""
+    solid = Block((ROUND, 0, 0), (3, 3, 1), name="x") | Block((0, ROUND, 0), (4, 2, 1), name="y")
+    for x, y in product((ROUND, 4 - ROUND), (ROUND, 3 - ROUND)):
+        solid = solid | Cylinder((x, y, 0), (x, y, 1), ROUND, name="corner")
+    return solid - Cylinder((2, 1.5, -1), (2, 1.5, 2), 0.6, name="hole")
+
+
 def bull_nose() -> Solid:
     """A disc whose rim is half a torus, with one curve of centres all around."""
     disc = Cylinder((0, 0, 0), (0, 0, 1), 2, name="disc")
@@ -127,6 +135,7 @@ PARTS: dict[str, Callable[[], Solid]] = {
     "bolt": bolt,
     "nut": nut,
     "rounded box": rounded_box,
+    "drilled plate": drilled_plate,
     "bull nose": bull_nose,
     "obround pocket": obround_pocket,
     "crossing pipes": crossing_pipes,
