@@ -56,7 +56,7 @@ def rounded_box() -> Solid:
 
 
 def drilled_plate() -> Solid:
-    """Twice as thick as its corners' radius, so that their axes end in one point of the skeleton."""
+    """Twice as thick as its corners' radius: their axes are points of the skeleton."""
     solid = Block((ROUND, 0, 0), (3, 3, 1), name="x") | Block((0, ROUND, 0), (4, 2, 1), name="y")
     for x, y in product((ROUND, 4 - ROUND), (ROUND, 3 - ROUND)):
         solid = solid | Cylinder((x, y, 0), (x, y, 1), ROUND, name="corner")
