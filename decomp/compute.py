@@ -30,6 +30,8 @@ TRACING = 0.6
 """The part of the whole that tracing is taken for."""
 FINENESSES = 4
 """How often the tolerance is made finer for the volume's sake."""
+COARSE = 3.0
+"""Where sheets cannot be drawn or refined triangles count as so many times too coarse, once."""
 
 Progress = Callable[[str, float], None]
 
@@ -83,11 +85,20 @@ class _Attempt:
             geometry, self._samples, lambda what, done: self._tell(what, TRACING * done)
         )
         fineness = fine_enough(geometry, self._relative, SHARE)
+        refused = False
         for left in reversed(range(FINENESSES)):
             self._tell("triangulating sheets", TRACING)
-            draft = drafted(geometry, curves, fineness * geometry.diagonal)
-            self._tell("refining", 0.7)
-            whole = Whole(geometry, self._relative, fineness, curves, draft)
+            try:
+                draft = drafted(geometry, curves, fineness * geometry.diagonal)
+                self._tell("refining", 0.7)
+                whole = Whole(geometry, self._relative, fineness, curves, draft)
+            except MissingCurveError:
+                raise
+            except GeometryError:
+                if refused or not left:
+                    raise
+                refused, fineness = True, finer(fineness, COARSE)
+                continue
             error = volume_error(geometry, draft.surface, whole.complex)
             if error > VOLUME and left:
                 fineness = finer(fineness, error / VOLUME)

@@ -9,6 +9,7 @@ skeleton's certificate the surfaces of all cells must be closed and hold the reg
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from decomp.boundary.topology import RegionBoundary
@@ -26,6 +27,8 @@ from decomp.medial.trim_maker import owners
 from decomp.sites.site import Site
 from decomp.tetra.content import contents
 
+FINER, FINER_TRIES = 3.0, 2
+"""So much finer a complex is tried if one cannot be made, and so often."""
 TRACING = 0.7
 """Which part of the work is behind when all curves are traced."""
 VOLUME = 2e-3
@@ -97,13 +100,20 @@ class SurfaceMaker:
         """A complex.
 
         Args:
-            tolerance: chord tolerance, in model units.
+            tolerance: chord tolerance, in model units; a finer one is taken if that fails.
             by_face: whether face cells are wanted, parted by trim surfaces.
 
         Raises:
             GeometryError: a cell is not closed, or the cells do not fill their region.
         """
         self._tell("triangulating sheets", TRACING)
+        for _ in range(FINER_TRIES):
+            with suppress(GeometryError):
+                return self._made(tolerance, by_face)
+            tolerance /= FINER
+        return self._made(tolerance, by_face)
+
+    def _made(self, tolerance: float, by_face: bool) -> MeshSurface:
         while True:
             try:
                 draft = drafted(self._geometry, self._curves, tolerance, with_trims=by_face)
