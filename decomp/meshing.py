@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -22,7 +23,7 @@ from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
 from decomp.tetra.child import Settings, TimeLimit, tetrahedralized
 from decomp.tetra.classify import classified
-from decomp.tetra.conforming import conformed
+from decomp.tetra.conforming import Conformed, conformed
 from decomp.tetra.expected import expected_tets, least_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import first_length, size_field
@@ -35,6 +36,7 @@ from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.sorting import sorted_in_space
 from decomp.tetra.splitting import freed
+from decomp.tetra.strayed import strayed
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
@@ -44,6 +46,9 @@ CHORD, COARSEST = 0.4, 0.6
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
+FAR, AGAIN = 3.0, 0.9
+"""Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
+triangle. It does so by chance, and is tried once more, with this part of epsilon."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may compute, in all and for each expected tetrahedron."""
 
@@ -120,17 +125,26 @@ def mesh(
     tell("TetWild", 0.4)
     work = max(LIMIT, LIMIT_PER_TET * expected)
     limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
-    raw = tetrahedralized(*_soup(plan), settings, field, limit, lambda note: tell(note, 0.5))
-    tell("naming", 0.8)
-    epsilon = raw.settings.epsilon
-    part = classified(geometry, known, raw.points, raw.tets, epsilon)
-    points, tets = _used(raw.points, raw.tets[part >= 0])
-    points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
-    tell("projecting", 0.85)
     elements = Elements(plan.complex)
-    tagger = Tagger(geometry, made, known, plan, epsilon)
-    finder = Finder(geometry, made, known, plan, elements, epsilon)
-    fit = conformed(points, tets, part, tagger, finder, plan, elements, geometry.diagonal)
+
+    def filled(settings: Settings) -> tuple[Conformed, Finder, Ints]:
+        raw = tetrahedralized(*_soup(plan), settings, field, limit, lambda note: tell(note, 0.5))
+        tell("naming", 0.8)
+        epsilon = raw.settings.epsilon
+        part = classified(geometry, known, raw.points, raw.tets, epsilon)
+        points, tets = _used(raw.points, raw.tets[part >= 0])
+        points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
+        tell("projecting", 0.85)
+        tagger = Tagger(geometry, made, known, plan, epsilon)
+        finder = Finder(geometry, made, known, plan, elements, epsilon)
+        fit = conformed(points, tets, part, tagger, finder, plan, elements, geometry.diagonal)
+        return fit, finder, strayed(fit.points, fit.tagged, plan, elements, FAR * epsilon)
+
+    fit, finder, far = filled(settings)
+    if len(far):
+        tell("TetWild again", 0.4)
+        again = filled(replace(settings, epsilon=AGAIN * settings.epsilon))
+        fit, finder, far = min((fit, finder, far), again, key=lambda found: len(found[2]))
     points, tets, part, tagged, left = fit.points, fit.tets, fit.part, fit.tagged, fit.left
     triangles = tagged.triangles
     if order == 2:

@@ -26,6 +26,8 @@ from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder, renewed
 from decomp.vectors import Array, Bools, Ints
 
+EXACT = 1e-12
+"""Nodes nearer to a surface than this part of the model's diagonal are on it."""
 ROUNDS = 8
 FLIPS = 3
 """How often tetrahedra with small angles are exchanged and nodes smoothed again."""
@@ -104,7 +106,7 @@ def conformed(
             break
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
-    off = strayed(projector.points, tagged, plan, elements, diagonal)
+    off = strayed(projector.points, tagged, plan, elements, EXACT * diagonal)
     left = np.unique(np.concatenate([left, slipped, off]))
     return Conformed(projector.points, tets, part, tagged, left)
 

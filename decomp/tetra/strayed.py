@@ -12,13 +12,8 @@ from decomp.tetra.layout import Layout
 from decomp.tetra.tagging import Tagged
 from decomp.vectors import Array, Ints
 
-EXACT = 1e-12
-"""Nodes nearer to a surface than this part of the model's diagonal are on it."""
 
-
-def strayed(
-    points: Array, tagged: Tagged, plan: Layout, elements: Elements, diagonal: float
-) -> Ints:
+def strayed(points: Array, tagged: Tagged, plan: Layout, elements: Elements, least: float) -> Ints:
     """The nodes, ascending.
 
     Args:
@@ -26,10 +21,10 @@ def strayed(
         tagged: triangles with their patches.
         plan: tells which patches are faces or interfaces.
         elements: of its complex.
-        diagonal: of the model.
+        least: nodes that are farther off are told.
     """
     outer = np.array([bool(sides) for sides in plan.sides])[tagged.patches]
     patches = np.repeat(tagged.patches[outer], 3)
     nodes, patches = np.unique(np.stack([tagged.triangles[outer].reshape(-1), patches]), axis=1)
     gap = elements.gap(np.asarray(elements.of_patch)[patches], points[nodes])
-    return np.unique(nodes[gap > EXACT * diagonal])
+    return np.unique(nodes[gap > least])

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import decomp
 from decomp.errors import InputError
+from decomp.tetra.child import Settings, Tetrahedra, tetrahedralized
 from decomp.tetra.faces import faces_of, least_dihedral
 from decomp.tetra.mesh import GroupKind, TetMesh
 from decomp.tetra.quality import inverted, volumes
 from decomp.tetra.splitting import held
+from decomp.vectors import Array, Ints
 from tests.solids import SOLIDS
 from tests.tetra.meshes import MODELS, geometry, meshed
 
@@ -219,3 +224,28 @@ def test_layers_across_a_thin_plate() -> None:
 def test_options_out_of_range(wrong: dict[str, object]) -> None:
     with pytest.raises(InputError):
         decomp.mesh(decomp.Block((0, 0, 0), (1, 1, 1)), **wrong)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_tetwild_is_run_again_where_it_left_out_triangles(
+    times: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A dent in what it returns: the mesh is made of what it returns next, if that is sound."""
+    asked = []
+
+    def dented(points: Array, triangles: Ints, settings: Settings, *rest: Any) -> Tetrahedra:
+        made = tetrahedralized(points, triangles, settings, *rest)
+        asked.append(settings.epsilon)
+        if len(asked) > times:
+            return made
+        centre = made.points[made.tets].mean(axis=1)
+        inside = np.linalg.norm(centre - [2, 1.5, 0.2], axis=1) > 0.5
+        return replace(made, tets=made.tets[inside])
+
+    monkeypatch.setattr("decomp.meshing.tetrahedralized", dented)
+    solid = decomp.Block((0, 0, 0), (4, 3, 2), name="block")
+    mesh = decomp.mesh(solid)
+    assert len(asked) == 2
+    assert asked[1] < asked[0]
+    whole = volumes(mesh.points, mesh.tets).sum() == pytest.approx(24, rel=1e-9)
+    assert whole == (times == 1)
