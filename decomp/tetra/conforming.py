@@ -122,10 +122,18 @@ def _mended(
 ) -> tuple[Array, Ints, Ints] | None:
     """Change tetrahedra at nodes that have no room where they belong; None if none could be."""
     near = _around(tets, left)
-    found = _changed(points, tets[near], part[near], left, tagger, tagged.at(tets[near]), finder)
+    around = points, tets[near], part[near], left
+    tagged = tagged.at(tets[near])
+    found = filled(*around, tagger.parts_at)
     if found is None:
-        return None
-    points, new, parts = found
+        found = collapsed(*around, finder.kinds(tagged))
+    if found is not None:
+        new, parts = found
+    else:
+        lifted = separated(*around, tagger.owner(tagged, left), tagger.parts_at)
+        if lifted is None:
+            return None
+        points, new, parts = lifted
     tets, part = np.concatenate([tets[~near], new]), np.concatenate([part[~near], parts])
     used = np.unique(tets)
     return points[used], np.searchsorted(used, tets), part
@@ -140,22 +148,3 @@ def _around(tets: Ints, nodes: Ints) -> Bools:
         some = np.isin(tets, nodes).any(axis=1)
         nodes = np.unique(tets[some])
     return np.asarray(some)
-
-
-def _changed(
-    points: Array,
-    tets: Ints,
-    part: Ints,
-    left: Ints,
-    tagger: Tagger,
-    tagged: Tagged,
-    finder: Finder,
-) -> tuple[Array, Ints, Ints] | None:
-    """The same for the tetrahedra around the nodes."""
-    filling = filled(points, tets, part, left, tagger.parts_at)
-    if filling is not None:
-        return points, *filling
-    merging = collapsed(points, tets, part, left, finder.kinds(tagged))
-    if merging is not None:
-        return points, *merging
-    return separated(points, tets, part, left, tagger.owner(tagged, left), tagger.parts_at)
