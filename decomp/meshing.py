@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Literal
@@ -21,7 +22,7 @@ from decomp.csg.solid import Solid
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import cell_map
-from decomp.tetra.child import Settings, TimeLimit, tetrahedralized
+from decomp.tetra.child import MeshingError, Settings, TimeLimit, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import Conformed, conformed
 from decomp.tetra.expected import expected_tets, least_tets
@@ -143,8 +144,9 @@ def mesh(
     fit, finder, far = filled(settings)
     if len(far):
         tell("TetWild again", 0.4)
-        again = filled(replace(settings, epsilon=AGAIN * settings.epsilon))
-        fit, finder, far = min((fit, finder, far), again, key=lambda found: len(found[2]))
+        with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
+            again = filled(replace(settings, epsilon=AGAIN * settings.epsilon))
+            fit, finder, far = min((fit, finder, far), again, key=lambda found: len(found[2]))
     points, tets, part, tagged, left = fit.points, fit.tets, fit.part, fit.tagged, fit.left
     triangles = tagged.triangles
     if order == 2:
