@@ -34,6 +34,9 @@ CANCELLED = 0.3
 """Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
+EVEN, ROUGH = 0.85, 1.2
+"""Edges about as long as the part is thick, up to the second of these parts of it, are made as long
+as the first: the skeleton halves walls, and tetrahedra over half of one would all come out flat."""
 STEP = 1.25
 """Wishes are joined in classes of lengths that differ by this factor."""
 
@@ -122,10 +125,17 @@ def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
             points.append(some)
             lengths.append(own)
         some, thick = thickness(geometry, surface, number, length)
-        across = THIN if wanted.layers is None else min(THIN, 1 / wanted.layers)
         points.append(some)
-        lengths.append(np.minimum(across * thick, length))
+        lengths.append(_across(thick, length, wanted.layers))
     return Wishes(np.concatenate(points), np.concatenate(lengths))
+
+
+def _across(thick: Array, largest: float, layers: int | None) -> Array:
+    """Lengths (n,) where parts are so thick (n,)."""
+    most = THIN if layers is None else min(THIN, 1 / layers)
+    own = np.minimum(most * thick, largest)
+    about = (own > EVEN * thick) & (own <= ROUGH * thick)
+    return np.where(about, EVEN * thick, own)
 
 
 def _curved(
