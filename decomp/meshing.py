@@ -30,15 +30,14 @@ from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import first_length, size_field
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.layout import Layout, layout
+from decomp.tetra.layout import layout
 from decomp.tetra.memory import check_memory
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.quadratic import quadratic
-from decomp.tetra.sizes import Wanted, Wishes, region_sizes, wishes
-from decomp.tetra.sorting import sorted_in_space
+from decomp.tetra.sizes import Wanted, region_sizes, wishes
+from decomp.tetra.soup import soup
 from decomp.tetra.splitting import freed
 from decomp.tetra.strayed import strayed
-from decomp.tetra.subdividing import subdivided
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.tetra.tagging import Tagger
 from decomp.tetra.targets import Finder
@@ -51,9 +50,6 @@ SHORTEST = 7.0
 FAR, AGAIN = 3.0, 0.9
 """Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
 triangle. It does so by chance, and is tried once more, with this part of epsilon."""
-INSERTED, PLANE = 1.4, 0.05
-"""TetWild is given no edges longer than so many of those wanted. Triangles no farther off each
-other's planes than this part of epsilon count as one when they are cut up for it."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may compute, in all and for each expected tetrahedron."""
 
@@ -131,10 +127,10 @@ def mesh(
     work = max(LIMIT, LIMIT_PER_TET * expected)
     limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
     elements = Elements(plan.complex)
-    soup = _soup(plan, wish, settings)
+    given = soup(plan, wish, settings)
 
     def filled(settings: Settings) -> tuple[Conformed, Finder, Ints]:
-        raw = tetrahedralized(*soup, settings, field, limit, lambda note: tell(note, 0.5))
+        raw = tetrahedralized(*given, settings, field, limit, lambda note: tell(note, 0.5))
         tell("naming", 0.8)
         epsilon = raw.settings.epsilon
         part = classified(geometry, known, raw.points, raw.tets, epsilon)
@@ -187,17 +183,6 @@ def _surface(
     if made.tolerance > COARSEST * fitting:
         made = maker.made(CHORD * fitting, by_face)
     return made, fitting
-
-
-def _soup(plan: Layout, wish: Wishes, settings: Settings) -> tuple[Array, Ints]:
-    """The complex's points and triangles as TetWild takes them quickly."""
-
-    def longest(middles: Array) -> Array:
-        return np.asarray(INSERTED * np.minimum(wish.at(middles), settings.edge_length))
-
-    used = _used(plan.complex.points, plan.triangles)
-    points, triangles = subdivided(*used, longest, PLANE * settings.epsilon)
-    return points, sorted_in_space(points, triangles)
 
 
 def _used(points: Array, cells: Ints) -> tuple[Array, Ints]:

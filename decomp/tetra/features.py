@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from decomp.boundary.topology import Convexity, RegionBoundary
-from decomp.complex.model import LineKind
+from decomp.complex.model import LineKind, Patch, SurfaceElement
 from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
 from decomp.tetra.cells import site_owners
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
-from decomp.vectors import Array, dot
+from decomp.vectors import Array, dot, norm
 
 FACING = -0.5
 """Feet face each other where the cosine between their directions is below this."""
@@ -31,6 +33,9 @@ OF_GAP = 0.3
 WIDE = 30.0
 """Where a sheet ends in an edge at less than this angle (degrees) to the faces, epsilon is smaller:
 TetWild lets it end epsilon / sin(angle) before the edge."""
+ZOOMS, PROMISING = 4, 12
+"""A wall's narrowest place is looked for in so many rounds, with samples a quarter as far apart in
+each, for so many walls in which samples find the least."""
 LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
@@ -114,43 +119,91 @@ def thickness(
     Sheets between faces that meet in an edge tell of the wedge there, not of a wall, and the tip of
     a cone is a corner too: neither counts.
     """
-    region = surface.regions[number]
     mesh = surface.complex
-    owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
-    meeting = {frozenset(edge.faces) for edge in region.boundary.edges}
     points, thick = [], []
-    for patch, sites in region.sheets.items():
-        if frozenset(owner[list(sites)].tolist()) in meeting:
-            continue
-        own = mesh.patches[patch]
+    for own in _walls(surface, number):
         some, _ = samples(mesh.points, own.triangles, largest / 2)
-        some = own.surface.place(some)
-        way = own.surface.normal(some) * (1e-6 * geometry.diagonal)
-        one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
-        good = (one.region == number) & (two.region == number) & (one.distance > 0)
-        good &= two.distance > 0
-        u = (one.foot - some) / np.maximum(one.distance, 1e-300)[:, None]
-        v = (two.foot - some) / np.maximum(two.distance, 1e-300)[:, None]
-        rows = good & (dot(u, v) < FACING)
-        for each in (some[rows], one.foot[rows], two.foot[rows]):
-            points.append(each)
-            thick.append(2 * one.distance[rows])
-    for line in mesh.lines:
-        if line.kind is LineKind.REFLEXIVE:
-            some = mesh.points[line.vertices]
-            found = geometry.index.nearest(some)
-            rows = (found.region == number) & (found.distance > found.distance.max() / 2)
-            for each in (some[rows], found.foot[rows]):
-                points.append(each)
-                thick.append(2 * found.distance[rows])
+        across, wide = _facing(geometry, own.surface, number, some)
+        points += list(across)
+        thick += [wide] * len(across)
+    for ends, wide in _reflexive(geometry, surface, number):
+        points += list(ends)
+        thick += [wide] * len(ends)
     return (
         np.concatenate([np.empty((0, 3)), *points]),
         np.concatenate([np.empty(0), *thick]),
     )
 
 
-def least_thickness(geometry: Geometry, surface: MeshSurface, region: int) -> float:
+def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> float:
     """The least local thickness of a region, infinite where no feet face each other."""
-    length = surface.regions[region].boundary.diagonal / SAMPLED
-    thick = thickness(geometry, surface, region, length)[1]
-    return float(thick.min(initial=np.inf))
+    length = surface.regions[number].boundary.diagonal / SAMPLED
+    least = [float(wide.min(initial=np.inf)) for _, wide in _reflexive(geometry, surface, number)]
+    walls = [
+        (_narrowest(geometry, surface, own, number, length, 1), own)
+        for own in _walls(surface, number)
+    ]
+    walls = sorted(walls, key=lambda wall: wall[0])[:PROMISING]
+    for known, own in walls:
+        if known < np.inf:
+            known = min(known, _narrowest(geometry, surface, own, number, length, ZOOMS))
+        least.append(known)
+    return min(least, default=np.inf)
+
+
+def _walls(surface: MeshSurface, number: int) -> Iterator[Patch]:
+    """The sheets of a region but for those between faces that meet in an edge."""
+    region = surface.regions[number]
+    owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
+    meeting = {frozenset(edge.faces) for edge in region.boundary.edges}
+    for patch, sites in region.sheets.items():
+        if frozenset(owner[list(sites)].tolist()) not in meeting:
+            yield surface.complex.patches[patch]
+
+
+def _narrowest(
+    geometry: Geometry, surface: MeshSurface, own: Patch, number: int, length: float, rounds: int
+) -> float:
+    """The least thickness along a sheet: of samples a length apart, then of some ever closer."""
+    points, triangles = surface.complex.points, own.triangles
+    best = np.inf
+    for _ in range(rounds):
+        some, which = samples(points, triangles, length / 2)
+        (places, *_), wide = _facing(geometry, own.surface, number, some)
+        if not len(wide):
+            break
+        best = min(best, float(wide.min()))
+        middle = places[np.argmin(wide)]
+        triangles = triangles[np.unique(which[norm(some - middle) < length])]
+        length /= 4
+    return best
+
+
+def _reflexive(
+    geometry: Geometry, surface: MeshSurface, number: int
+) -> Iterator[tuple[tuple[Array, Array], Array]]:
+    """Points (k, 3) of each reflexive curve of a region with their feet and thicknesses (k,)."""
+    for line in surface.complex.lines:
+        if line.kind is LineKind.REFLEXIVE:
+            some = surface.complex.points[line.vertices]
+            found = geometry.index.nearest(some)
+            rows = (found.region == number) & (found.distance > found.distance.max() / 2)
+            yield (some[rows], found.foot[rows]), 2 * found.distance[rows]
+
+
+def _facing(
+    geometry: Geometry, sheet: SurfaceElement, number: int, some: Array
+) -> tuple[tuple[Array, Array, Array], Array]:
+    """Points (k, 3) of a sheet among some (n, 3) at which feet face each other.
+
+    With their feet on both sides, and how far these are apart (k,).
+    """
+    some = sheet.place(some)
+    way = sheet.normal(some) * (1e-6 * geometry.diagonal)
+    one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
+    good = (one.region == number) & (two.region == number) & (one.distance > 0)
+    good &= two.distance > 0
+    u = (one.foot - some) / np.maximum(one.distance, 1e-300)[:, None]
+    v = (two.foot - some) / np.maximum(two.distance, 1e-300)[:, None]
+    rows = good & (dot(u, v) < FACING)
+    return (some[rows], one.foot[rows], two.foot[rows]), np.asarray(2 * one.distance[rows])

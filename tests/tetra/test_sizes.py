@@ -165,6 +165,21 @@ def test_epsilon_fits_walls_and_gaps() -> None:
     assert fitting_epsilon(geometry, surface, 0.01) == 0.01
 
 
+@pytest.mark.parametrize("between", [0.3, 0.01, 1e-3])
+def test_the_narrowest_place_between_balls_is_found(between: float) -> None:
+    way = np.array([0.48, -0.6, 0.64])  # a unit vector that no sample lies on
+    solid = decomp.Sphere((0, 0, 0), 1) - decomp.Sphere(tuple((0.6 - between) * way), 0.4)
+    assert least_thickness(*surface_of(solid), 0) == pytest.approx(between, rel=0.02)
+
+
+def test_walls_as_thick_as_edges_get_shorter_ones() -> None:
+    solid = decomp.Sphere((0, 0, 0), 1) - decomp.Sphere((0, 0, 0), 0.9)
+    geometry, surface = surface_of(solid)
+    for size, least in ((0.2, 0.2), (0.11, 0.085), (0.1, 0.085), (0.08, 0.08)):
+        found = wishes(geometry, surface, Wanted(size=size)).lengths
+        assert found.min() == pytest.approx(least, rel=0.01)
+
+
 def test_the_number_of_tetrahedra_is_known_before() -> None:
     block = decomp.Block((0, 0, 0), (4, 3, 2), name="block")
     geometry, surface = surface_of(block)

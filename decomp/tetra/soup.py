@@ -1,0 +1,36 @@
+"""The complex's triangles as TetWild takes them quickly: cut to short ones, and sorted in space."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.tetra.child import Settings
+from decomp.tetra.layout import Layout
+from decomp.tetra.sizes import Wishes
+from decomp.tetra.sorting import sorted_in_space
+from decomp.tetra.subdividing import subdivided
+from decomp.vectors import Array, Ints
+
+INSERTED = 1.4
+"""TetWild is given no edges longer than so many of those wanted."""
+PLANE = 0.05
+"""Triangles no farther off each other's planes than this part of epsilon are cut up as one."""
+
+
+def soup(plan: Layout, wish: Wishes, settings: Settings) -> tuple[Array, Ints]:
+    """Points (n, 3) and triangles (m, 3) for TetWild.
+
+    Args:
+        plan: the complex.
+        wish: lengths of edges.
+        settings: TetWild's.
+    """
+
+    def longest(middles: Array) -> Array:
+        return np.asarray(INSERTED * np.minimum(wish.at(middles), settings.edge_length))
+
+    used, triangles = np.unique(plan.triangles, return_inverse=True)
+    points, triangles = subdivided(
+        plan.complex.points[used], triangles.reshape(-1, 3), longest, PLANE * settings.epsilon
+    )
+    return points, sorted_in_space(points, triangles)
