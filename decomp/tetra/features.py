@@ -26,7 +26,7 @@ USUAL = 5e-3
 OF_LENGTH = 0.1
 """Epsilon relative to the shortest edges wanted. TetWild tests triangles by samples that are about
 epsilon apart, so its time goes with the square of their ratio."""
-OF_THICKNESS, OF_EDGE = 0.2, 0.12
+OF_THICKNESS, OF_EDGE = 0.15, 0.12
 """Epsilon is at most these parts of the least thickness, and of the shortest edge."""
 OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""

@@ -18,6 +18,8 @@ from decomp.vectors import Array, Ints
 
 MARGIN = 0.2
 """How far the background reaches beyond the model, in parts of its diagonal."""
+STEEP = 1.5
+"""Outside, a length away from the model, they grow by this slope."""
 WIDTH = 2.0
 """Cells are at most so many of the shortest lengths in them wide."""
 DEEPEST = 12
@@ -52,7 +54,12 @@ def size_field(geometry: Geometry, wish: Wishes, sizes: Array) -> SizeField | No
 
     def lengths(points: Array) -> Array:
         region = geometry.index.region_of(points)
-        return np.asarray(np.minimum(wish.at(points), within[region]))
+        found = np.asarray(np.minimum(wish.at(points), within[region]))
+        rows = np.flatnonzero(region < 0)
+        if len(rows):
+            away = geometry.index.nearest(points[rows]).distance - found[rows]
+            found[rows] += (STEEP - SLOPE) * np.maximum(away, 0.0)
+        return found
 
     low, high = _box(geometry, MARGIN)
     points = octree_corners(low, float((high - low).max()), lengths)
@@ -84,7 +91,7 @@ def octree_corners(low: Array, width: float, lengths: Lengths, seed: int = 0) ->
     Args:
         low: (3,) the lowest corner of the whole.
         width: of the whole.
-        lengths: wanted; they grow by `SLOPE` for each unit of way at most.
+        lengths: wanted; inside they grow by `SLOPE` for each unit of way at most.
         seed: of the shaking.
     """
     cells = np.zeros((1, 3), dtype=np.int64)

@@ -11,7 +11,7 @@ from decomp.tetra.sorting import sorted_in_space
 from decomp.tetra.subdividing import subdivided
 from decomp.vectors import Array, Ints
 
-INSERTED = 1.4
+INSERTED = 1.2
 """TetWild is given no edges longer than so many of those wanted."""
 PLANE = 0.05
 """Triangles no farther off each other's planes than this part of epsilon are cut up as one."""

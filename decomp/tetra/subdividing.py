@@ -23,7 +23,7 @@ SIDES = np.array([[1, 2], [2, 0], [0, 1]])
 ACROSS = 1.5
 """Edges that are no creases may be so many times as long as asked: a ladder has diagonals."""
 SHAKEN = 1e-3
-"""Edges are cut off their middles by up to this part of them, at random: regular vertices lie on
+"""Edges are cut off the right place by up to this part of them, at random: regular vertices lie on
 common spheres, between which Delaunay tetrahedra may be flat, and TetWild inserts nothing there."""
 SWEEPS = 2
 """How often flips are looked for after each round of cuts; what is left comes with the next."""
@@ -34,7 +34,7 @@ STRICT = 1e-6
 def subdivided(
     points: Array, triangles: Ints, longest: Callable[[Array], Array], flat: float
 ) -> tuple[Array, Ints]:
-    """Bisect edges until none is longer than asked; neighbours stay conforming.
+    """Cut edges in two until none is longer than asked; neighbours stay conforming.
 
     Args:
         points: (n, 3).
@@ -47,10 +47,10 @@ def subdivided(
             net = _Net(points, triangles, flat)
             triangles = net.flipped()
         net = _Net(points, triangles, flat)
-        cut = net.cut(longest)
-        if not cut.any():
+        cut, parts = net.cuts(longest)
+        if not len(cut):
             return points, triangles
-        points, triangles = net.bisected(cut)
+        points, triangles = net.divided(cut, parts)
 
 
 class _Net:
@@ -88,36 +88,44 @@ class _Net:
         near = (off[0] <= flat * areas[0]) & (off[1] <= flat * areas[1])
         return np.asarray(good & near & (dot(one, two) < 0))
 
-    def cut(self, longest: Callable[[Array], Array]) -> Bools:
-        """Edges (k,) to be bisected now: the longest of their triangles, creases before others."""
+    def cuts(self, longest: Callable[[Array], Array]) -> tuple[Ints, Ints]:
+        """Edges (k,) to be cut now, and into how many parts (k,) in the end.
+
+        They are the longest of all their triangles, creases before others.
+        """
         ends = self._points[self._edges]
         length = norm(ends[:, 1] - ends[:, 0])
-        limit = longest(ends.mean(axis=1))
-        long = length > np.where(self._plane, ACROSS, 1.0) * limit
+        limit = np.where(self._plane, ACROSS, 1.0) * longest(ends.mean(axis=1))
+        long = length > limit
         keys = np.lexsort((length, long, long & ~self._plane))
         rank = np.empty(len(length), dtype=np.int64)
         rank[keys] = np.arange(len(length))
         first = self._first(rank)
-        return np.asarray(long & (np.bincount(first, minlength=len(long)) == self._number))
+        cut = np.flatnonzero(long & (np.bincount(first, minlength=len(long)) == self._number))
+        return cut, np.ceil(length[cut] / limit[cut]).astype(np.int64)
 
     def _first(self, rank: Ints) -> Ints:
         """The edge (m,) of highest rank of each triangle."""
         local = np.argmax(rank[self._sides], axis=1)
         return np.asarray(self._sides[np.arange(len(local)), local])
 
-    def bisected(self, cut: Bools) -> tuple[Array, Ints]:
-        """Points and triangles with edges bisected of which no triangle has two."""
-        middle = np.full(len(cut), -1, dtype=np.int64)
-        middle[cut] = len(self._points) + np.arange(int(cut.sum()))
+    def divided(self, cut: Ints, parts: Ints) -> tuple[Array, Ints]:
+        """Points and triangles with edges cut in two, no two of one triangle.
+
+        About half of an edge's parts come to lie on each side.
+        """
+        new = np.full(len(self._edges), -1, dtype=np.int64)
+        new[cut] = len(self._points) + np.arange(len(cut))
         a, b = np.moveaxis(self._points[self._edges[cut]], 1, 0)
-        part = np.random.default_rng(len(a)).uniform(0.5 - SHAKEN, 0.5 + SHAKEN, size=(len(a), 1))
+        shaken = np.random.default_rng(len(cut)).uniform(-SHAKEN, SHAKEN, size=len(cut))
+        part = (parts // 2 / parts + shaken)[:, None]
         points = np.concatenate([self._points, a + part * (b - a)])
-        rows, local = np.nonzero(cut[self._sides])
+        rows, local = np.nonzero(new[self._sides] >= 0)
         a, b, c = (self._triangles[rows, (local + k) % 3] for k in range(3))
-        new = middle[self._sides[rows, local]]
+        there = new[self._sides[rows, local]]
         left = np.ones(len(self._triangles), dtype=np.bool_)
         left[rows] = False
-        halves = np.stack([a, b, new], axis=1), np.stack([a, new, c], axis=1)
+        halves = np.stack([a, b, there], axis=1), np.stack([a, there, c], axis=1)
         return points, np.concatenate([self._triangles[left], *halves])
 
     def flipped(self) -> Ints:
