@@ -81,6 +81,14 @@ def test_slender_strips_become_ladders():
     assert norm(points[edges[:, 0]] - points[edges[:, 1]]).min() >= min(0.99 * width, 0.4)
 
 
+def test_parts_are_even():
+    points, triangles = subdivided(POINTS, TRIANGLES, evenly(1.7), FLAT)
+    edges, sides = edges_of(triangles, SIDES)
+    count = np.bincount(sides.ravel())
+    length = norm(points[edges[:, 0]] - points[edges[:, 1]])
+    assert length[count == 3] == pytest.approx(np.full(3, 5 / 3), rel=0.01)  # not halves of halves
+
+
 def test_lengths_follow_a_field():
     square = np.array([[0, 0, 0], [8, 0, 0], [8, 8, 0], [0, 8, 0.0]])
     halves = np.array([[0, 1, 2], [0, 2, 3]])
