@@ -109,16 +109,17 @@ def figures(points: Any, tets: Any, exact: float) -> dict[str, float]:
 def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
     """The whole way; tells the edge length and epsilon that TetWild was given, too."""
     from decomp import meshing
+    from decomp.tetra import tetrahedra
 
     meshing.mesh(SOLIDS["conical pit"].make())  # loads the kernels
     asked: list[Any] = []
-    original = meshing.tetrahedralized
+    original = tetrahedra.tetrahedralized
 
     def recording(points: Any, triangles: Any, settings: Any, *rest: Any, **more: Any) -> Any:
         asked.append(settings)
         return original(points, triangles, settings, *rest, **more)
 
-    meshing.tetrahedralized = recording
+    tetrahedra.tetrahedralized = recording
     source = source_of(name)
     geometry = Geometry(source)
     size = geometry.diagonal / EDGES

@@ -8,55 +8,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
-from dataclasses import replace
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 
-from decomp.complex.refine_elements import Elements
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import InputError
 from decomp.geometry import Geometry
-from decomp.tetra.cells import cell_map
-from decomp.tetra.child import MeshingError, Settings, TimeLimit, tetrahedralized
-from decomp.tetra.classify import classified
-from decomp.tetra.conforming import Conformed, conformed
-from decomp.tetra.expected import expected_tets, least_tets
-from decomp.tetra.features import fitting_epsilon, usual_epsilon
-from decomp.tetra.field import first_length, size_field
+from decomp.tetra.child import TimeLimit
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.layout import layout
-from decomp.tetra.memory import check_memory
 from decomp.tetra.mesh import TetMesh
+from decomp.tetra.preparation import Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
-from decomp.tetra.sizes import Wanted, region_sizes, wishes
-from decomp.tetra.soup import soup
-from decomp.tetra.splitting import freed
-from decomp.tetra.strayed import strayed
-from decomp.tetra.surface import MeshSurface, SurfaceMaker
-from decomp.tetra.tagging import Tagger
-from decomp.tetra.targets import Finder
+from decomp.tetra.sizes import Wanted
+from decomp.tetra.tetrahedra import Filled, filled
 from decomp.vectors import Array, Ints
 
-CHORD, COARSEST = 0.4, 0.6
-"""How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
-SHORTEST = 7.0
-"""The shortest edges are at least so many epsilons long."""
-FAR, AGAIN = 3.0, 0.9
-"""Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
-triangle. It does so by chance, and is tried once more, with this part of epsilon."""
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may compute, in all and for each expected tetrahedron."""
-
-SURFACE = 0.3
-"""Which part of the whole is behind when there is a complex."""
-
-Progress = Callable[[str, float], None]
+PREPARED, FILLED = 0.35, 0.95
+"""Which part of the whole is behind when TetWild begins, and when its mesh is in place."""
 
 
 def mesh(
@@ -107,59 +82,20 @@ def mesh(
             raise InputError(f"{what} must be one of {allowed}, got {value!r}")
     asked = checked_fields(fields)
     wanted = Wanted(size, layers, elements_per_circle)
-    maker = SurfaceMaker(geometry, lambda what, done: tell(what, SURFACE * done))
-    sizes = region_sizes(geometry, wanted)
-    check_memory(least_tets(geometry, sizes), float(sizes.max()))
-    by_face = cells == "face"
-    made, epsilon = _surface(geometry, maker, float(sizes.min()), by_face)
-    tell("sizing", SURFACE)
-    wish = wishes(geometry, made, wanted)
-    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
-    if made.tolerance > COARSEST * epsilon:
-        made = maker.made(CHORD * epsilon, by_face)
-    field = size_field(geometry, wish, sizes)
-    settings = Settings(first_length(wish, field), epsilon)
-    known = cell_map(made)
-    plan = layout(made, known)
-    expected = expected_tets(geometry, wish, sizes)
-    check_memory(expected)
-    tell("TetWild", 0.4)
-    work = max(LIMIT, LIMIT_PER_TET * expected)
+    given = prepared(geometry, wanted, cells == "face", _between(tell, 0.0, PREPARED))
+    work = max(LIMIT, LIMIT_PER_TET * given.expected)
     limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
-    elements = Elements(plan.complex)
-    given = soup(plan, wish, settings)
-
-    def filled(settings: Settings) -> tuple[Conformed, Finder, Ints]:
-        raw = tetrahedralized(*given, settings, field, limit, lambda note: tell(note, 0.5))
-        tell("naming", 0.8)
-        epsilon = raw.settings.epsilon
-        part = classified(geometry, known, raw.points, raw.tets, epsilon)
-        points, tets = _used(raw.points, raw.tets[part >= 0])
-        points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
-        tell("projecting", 0.85)
-        tagger = Tagger(geometry, made, known, plan, epsilon)
-        finder = Finder(geometry, made, known, plan, elements, epsilon)
-        fit = conformed(points, tets, part, tagger, finder, plan, elements, geometry.diagonal)
-        return fit, finder, strayed(fit.points, fit.tagged, plan, elements, FAR * epsilon)
-
-    fit, finder, far = filled(settings)
-    if len(far):
-        tell("TetWild again", 0.4)
-        with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
-            again = filled(replace(settings, epsilon=AGAIN * settings.epsilon))
-            fit, finder, far = min((fit, finder, far), again, key=lambda found: len(found[2]))
-    points, tets, part, tagged, left = fit.points, fit.tets, fit.part, fit.tagged, fit.left
-    triangles = tagged.triangles
+    made = filled(given, limit, _between(tell, PREPARED, FILLED))
     if order == 2:
-        tell("curving", 0.95)
-        curved = quadratic(points, tets, tagged, finder, elements, plan.complex.points)
-        points, tets, triangles = curved.points, curved.tets, curved.triangles
-        left = np.concatenate([left, curved.left])
-    groups, tags = surface_groups(geometry, made, known, plan, tagged, sheets)
+        tell("curving", FILLED)
+    points, tets, triangles, left = _elements(given, made, order)
+    tagged, part = made.fit.tagged, made.fit.part
+    groups, tags = surface_groups(geometry, given.surface, given.known, given.plan, tagged, sheets)
+    cell = given.known.cell_of(part) + 1
     if volumes == "cells":
-        solid, tet_tags = cell_groups(geometry, known), known.cell_of(part) + 1
+        solid, tet_tags = cell_groups(geometry, given.known), cell
     else:
-        solid, tet_tags = region_groups(geometry), known.region_of(part) + 1
+        solid, tet_tags = region_groups(geometry), given.known.region_of(part) + 1
     result = TetMesh(
         geometry.model.name,
         points,
@@ -170,22 +106,20 @@ def mesh(
         (*solid, *groups),
         left,
     )
-    return with_fields(geometry, result, asked, known.cell_of(part) + 1) if asked else result
+    return with_fields(geometry, result, asked, cell) if asked else result
 
 
-def _surface(
-    geometry: Geometry, maker: SurfaceMaker, length: float, by_face: bool
-) -> tuple[MeshSurface, float]:
-    """The complex, and the epsilon that it is fine enough for."""
-    epsilon = usual_epsilon(geometry, length)
-    made = maker.made(CHORD * epsilon, by_face)
-    fitting = fitting_epsilon(geometry, made, epsilon)
-    if made.tolerance > COARSEST * fitting:
-        made = maker.made(CHORD * fitting, by_face)
-    return made, fitting
+def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints, Ints]:
+    """Points, tetrahedra, triangles, and nodes that are not on all that they belong to."""
+    fit = made.fit
+    if order == 1:
+        return fit.points, fit.tets, fit.tagged.triangles, fit.left
+    corners = given.plan.complex.points
+    curved = quadratic(fit.points, fit.tets, fit.tagged, made.finder, given.elements, corners)
+    left = np.concatenate([fit.left, curved.left])
+    return curved.points, curved.tets, curved.triangles, left
 
 
-def _used(points: Array, cells: Ints) -> tuple[Array, Ints]:
-    """The points that triangles or tetrahedra use, and these renumbered."""
-    used = np.unique(cells)
-    return points[used], np.searchsorted(used, cells)
+def _between(tell: Progress, start: float, end: float) -> Progress:
+    """Tells of a stage as of a part of the whole."""
+    return lambda what, done: tell(what, start + (end - start) * done)

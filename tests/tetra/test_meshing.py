@@ -242,7 +242,7 @@ def test_tetwild_is_run_again_where_it_left_out_triangles(
         inside = np.linalg.norm(centre - [2, 1.5, 0.2], axis=1) > 0.5
         return replace(made, tets=made.tets[inside])
 
-    monkeypatch.setattr("decomp.meshing.tetrahedralized", dented)
+    monkeypatch.setattr("decomp.tetra.tetrahedra.tetrahedralized", dented)
     solid = decomp.Block((0, 0, 0), (4, 3, 2), name="block")
     mesh = decomp.mesh(solid)
     assert len(asked) == 2

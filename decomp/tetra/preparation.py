@@ -1,0 +1,107 @@
+"""What TetWild is given: the complex, fine enough for an epsilon, and a field of sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from decomp.complex.refine_elements import Elements
+from decomp.geometry import Geometry
+from decomp.tetra.cells import CellMap, cell_map
+from decomp.tetra.child import Settings, SizeField
+from decomp.tetra.expected import expected_tets, least_tets
+from decomp.tetra.features import fitting_epsilon, usual_epsilon
+from decomp.tetra.field import first_length, size_field
+from decomp.tetra.layout import Layout, layout
+from decomp.tetra.memory import check_memory
+from decomp.tetra.sizes import Wanted, region_sizes, wishes
+from decomp.tetra.soup import soup
+from decomp.tetra.surface import MeshSurface, SurfaceMaker
+from decomp.vectors import Array, Ints
+
+CHORD, COARSEST = 0.4, 0.6
+"""How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
+SHORTEST = 7.0
+"""The shortest edges are at least so many epsilons long."""
+
+Progress = Callable[[str, float], None]
+"""Told what is being done, and which part of the whole (0 to 1) is behind."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """All that is known before TetWild runs.
+
+    Args:
+        geometry: of the model.
+        surface: boundary and skeleton.
+        known: its cells.
+        plan: which patches part them.
+        elements: of the complex.
+        triangles: (n, 3) points and (m, 3) triangles for TetWild.
+        settings: for it.
+        field: sizes for it.
+        expected: how many tetrahedra there will be, about.
+    """
+
+    geometry: Geometry
+    surface: MeshSurface
+    known: CellMap
+    plan: Layout
+    elements: Elements
+    triangles: tuple[Array, Ints]
+    settings: Settings
+    field: SizeField | None
+    expected: float
+
+
+def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) -> Prepared:
+    """Compute the skeleton, and choose sizes and epsilon.
+
+    Args:
+        geometry: of the model.
+        wanted: by the user.
+        by_face: whether a cell is made for each face.
+        tell: of the progress.
+
+    Raises:
+        InputError: the mesh would not fit into memory.
+        GeometryError: the skeleton cannot be computed.
+    """
+    sizes = region_sizes(geometry, wanted)
+    check_memory(least_tets(geometry, sizes), float(sizes.max()))
+    maker = SurfaceMaker(geometry, tell)
+    epsilon = usual_epsilon(geometry, float(sizes.min()))
+    surface = maker.made(CHORD * epsilon, by_face)
+    epsilon = fitting_epsilon(geometry, surface, epsilon)
+    surface = _fine_enough(surface, epsilon, maker, by_face)
+    tell("sizing", 1.0)
+    wish = wishes(geometry, surface, wanted)
+    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
+    surface = _fine_enough(surface, epsilon, maker, by_face)
+    expected = expected_tets(geometry, wish, sizes)
+    check_memory(expected)
+    field = size_field(geometry, wish, sizes)
+    settings = Settings(first_length(wish, field), epsilon)
+    known = cell_map(surface)
+    plan = layout(surface, known)
+    return Prepared(
+        geometry,
+        surface,
+        known,
+        plan,
+        Elements(plan.complex),
+        soup(plan, wish, settings),
+        settings,
+        field,
+        expected,
+    )
+
+
+def _fine_enough(
+    surface: MeshSurface, epsilon: float, maker: SurfaceMaker, by_face: bool
+) -> MeshSurface:
+    """The surface, or a finer one if it is too coarse for an epsilon."""
+    if surface.tolerance <= COARSEST * epsilon:
+        return surface
+    return maker.made(CHORD * epsilon, by_face)

@@ -1,0 +1,83 @@
+"""Tetrahedra that follow the exact complex: TetWild's, told their cells and put in place."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from decomp.tetra.child import MeshingError, Settings, TimeLimit, tetrahedralized
+from decomp.tetra.classify import classified
+from decomp.tetra.conforming import Conformed, conformed
+from decomp.tetra.preparation import Prepared, Progress
+from decomp.tetra.splitting import freed
+from decomp.tetra.strayed import strayed
+from decomp.tetra.tagging import Tagger
+from decomp.tetra.targets import Finder
+from decomp.vectors import Array, Ints
+
+FAR, AGAIN = 3.0, 0.9
+"""Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
+triangle. It does so by chance, and is tried once more, with this part of epsilon."""
+
+
+@dataclass(frozen=True, eq=False)
+class Filled:
+    """A mesh whose nodes are where they belong.
+
+    Args:
+        fit: the mesh.
+        finder: of its nodes' places.
+        far: nodes that are far off their faces.
+    """
+
+    fit: Conformed
+    finder: Finder
+    far: Ints
+
+
+def filled(given: Prepared, limit: TimeLimit, tell: Progress) -> Filled:
+    """Run TetWild, a second time if it leaves out triangles, and keep the better mesh.
+
+    Args:
+        given: what it runs on.
+        limit: of each run.
+        tell: of the progress.
+
+    Raises:
+        MeshingError: the first run fails.
+    """
+    tell("TetWild", 0.0)
+    best = _run(given, given.settings, limit, tell)
+    if len(best.far):
+        tell("TetWild again", 0.0)
+        finer = replace(given.settings, epsilon=AGAIN * given.settings.epsilon)
+        with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
+            again = _run(given, finer, limit, tell)
+            best = min(best, again, key=lambda found: len(found.far))
+    return best
+
+
+def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) -> Filled:
+    geometry, known, plan = given.geometry, given.known, given.plan
+    raw = tetrahedralized(
+        *given.triangles, settings, given.field, limit, lambda note: tell(note, 0.2)
+    )
+    tell("naming", 0.7)
+    epsilon = raw.settings.epsilon
+    part = classified(geometry, known, raw.points, raw.tets, epsilon)
+    points, tets = _used(raw.points, raw.tets[part >= 0])
+    points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
+    tell("projecting", 0.8)
+    tagger = Tagger(geometry, given.surface, known, plan, epsilon)
+    finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
+    fit = conformed(points, tets, part, tagger, finder, plan, given.elements, geometry.diagonal)
+    far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * epsilon)
+    return Filled(fit, finder, far)
+
+
+def _used(points: Array, cells: Ints) -> tuple[Array, Ints]:
+    """The points that tetrahedra use, and these renumbered."""
+    used = np.unique(cells)
+    return points[used], np.searchsorted(used, cells)
