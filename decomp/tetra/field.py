@@ -40,16 +40,29 @@ Lengths = Callable[[Array], Array]
 """Points (k, 3) -> lengths (k,)."""
 
 
-def size_field(geometry: Geometry, wish: Wishes, sizes: Array) -> SizeField | None:
-    """The field of all wishes, None where one length serves.
+def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeField | None]:
+    """The length TetWild begins with all over, and the field that refines the mesh then.
+
+    There is no field where one length serves.
 
     Args:
         geometry: of the model.
         wish: lengths at points.
         sizes: (r,) the largest length in each region.
     """
-    if is_uniform(wish) and not is_hollow(geometry, wish):
-        return None
+    lengths = _joined(geometry, wish, sizes)
+    longest = float(wish.lengths.max())
+    hollow = is_hollow(geometry, lengths, longest)
+    if is_uniform(wish) and not hollow:
+        return longest, None
+    low, high = _box(geometry, MARGIN)
+    points = octree_corners(low, float((high - low).max()), lengths)
+    field = SizeField(points, delaunay(points), lengths(points))
+    return float(field.sizes.max()) if hollow else longest, field
+
+
+def _joined(geometry: Geometry, wish: Wishes, sizes: Array) -> Lengths:
+    """The least of all wishes and regions' sizes, growing fast outside."""
     within = np.append(sizes, np.inf)
 
     def lengths(points: Array) -> Array:
@@ -61,16 +74,7 @@ def size_field(geometry: Geometry, wish: Wishes, sizes: Array) -> SizeField | No
             found[rows] += (STEEP - SLOPE) * np.maximum(away, 0.0)
         return found
 
-    low, high = _box(geometry, MARGIN)
-    points = octree_corners(low, float((high - low).max()), lengths)
-    return SizeField(points, delaunay(points), lengths(points))
-
-
-def first_length(wish: Wishes, field: SizeField | None) -> float:
-    """The length with which TetWild begins all over; the field refines that afterwards."""
-    if field is not None and is_uniform(wish):
-        return float(field.sizes.max())
-    return float(wish.lengths.max())
+    return lengths
 
 
 def is_uniform(wish: Wishes) -> bool:
@@ -78,10 +82,10 @@ def is_uniform(wish: Wishes) -> bool:
     return bool(wish.lengths.max() <= UNIFORM * wish.lengths.min())
 
 
-def is_hollow(geometry: Geometry, wish: Wishes, seed: int = 0) -> bool:
-    """Whether a model leaves so much of its box empty that a field is worth its passes."""
+def is_hollow(geometry: Geometry, lengths: Lengths, longest: float, seed: int = 0) -> bool:
+    """Whether a model leaves so much of its box empty that one length all over is too costly."""
     probes = np.random.default_rng(seed).uniform(*_box(geometry, AROUND), size=(PROBES, 3))
-    share = float(np.mean((wish.lengths.min() / wish.at(probes)) ** 3))
+    share = float(np.mean((longest / lengths(probes)) ** 3))
     return HOLLOW * share < 1
 
 

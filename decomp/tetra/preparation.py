@@ -11,7 +11,7 @@ from decomp.tetra.cells import CellMap, cell_map
 from decomp.tetra.child import Settings, SizeField
 from decomp.tetra.expected import expected_tets, least_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
-from decomp.tetra.field import first_length, size_field
+from decomp.tetra.field import sizing
 from decomp.tetra.layout import Layout, layout
 from decomp.tetra.memory import check_memory
 from decomp.tetra.sizes import Wanted, region_sizes, wishes
@@ -81,8 +81,8 @@ def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) 
     surface = _fine_enough(surface, epsilon, maker, by_face)
     expected = expected_tets(geometry, wish, sizes)
     check_memory(expected)
-    field = size_field(geometry, wish, sizes)
-    settings = Settings(first_length(wish, field), epsilon)
+    length, field = sizing(geometry, wish, sizes)
+    settings = Settings(length, epsilon)
     known = cell_map(surface)
     plan = layout(surface, known)
     return Prepared(

@@ -12,7 +12,9 @@ from decomp.tetra.subdividing import subdivided
 from decomp.vectors import Array, Ints
 
 INSERTED = 1.2
-"""TetWild is given no edges longer than so many of those wanted."""
+"""TetWild is given no edges longer than so many of those wanted,"""
+BEGUN = 0.1
+"""unless they are below this part of the length that it begins with."""
 PLANE = 0.05
 """Triangles no farther off each other's planes than this part of epsilon are cut up as one."""
 
@@ -27,7 +29,8 @@ def soup(plan: Layout, wish: Wishes, settings: Settings) -> tuple[Array, Ints]:
     """
 
     def longest(middles: Array) -> Array:
-        return np.asarray(INSERTED * np.minimum(wish.at(middles), settings.edge_length))
+        wanted = np.minimum(wish.at(middles), settings.edge_length)
+        return np.asarray(np.maximum(INSERTED * wanted, BEGUN * settings.edge_length))
 
     used, triangles = np.unique(plan.triangles, return_inverse=True)
     points, triangles = subdivided(

@@ -12,7 +12,7 @@ from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, least_thickness, usual_epsilon
-from decomp.tetra.field import STEEP, WIDTH, first_length, is_uniform, octree_corners, size_field
+from decomp.tetra.field import STEEP, WIDTH, is_uniform, octree_corners, sizing
 from decomp.tetra.sizes import SLOPE, Wanted, Wishes, curvatures, region_sizes, wishes
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.vectors import direction, vector
@@ -63,7 +63,7 @@ def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
     geometry, surface = surface_of(SOLIDS["cylinder"].make())
     wanted = Wanted()
     wish, sizes = wishes(geometry, surface, wanted), region_sizes(geometry, wanted)
-    field = size_field(geometry, wish, sizes)
+    _, field = sizing(geometry, wish, sizes)
     assert field is not None
     low, high = np.array(geometry.regions[0].bounds)
     volume = np.abs(
@@ -99,9 +99,9 @@ def test_what_is_empty_is_coarse() -> None:
     wanted = Wanted(size=0.05)
     wish, sizes = wishes(geometry, surface, wanted), region_sizes(geometry, wanted)
     assert is_uniform(wish)
-    field = size_field(geometry, wish, sizes)
+    first, field = sizing(geometry, wish, sizes)
     assert field is not None
-    assert first_length(wish, field) > 4 * 0.05
+    assert first > 4 * 0.05
     radius = np.linalg.norm(field.points, axis=1)
     assert field.sizes[(radius > 0.9) & (radius < 1)].max() <= 0.05
     assert field.sizes[np.argmin(radius)] > 0.2
@@ -112,7 +112,7 @@ def test_uniform_wishes_need_no_field() -> None:
     wanted = Wanted(size=0.5)
     wish = wishes(geometry, surface, wanted)
     assert (wish.lengths == 0.5).all()
-    assert size_field(geometry, wish, region_sizes(geometry, wanted)) is None
+    assert sizing(geometry, wish, region_sizes(geometry, wanted)) == (0.5, None)
 
 
 def test_edges_around_a_circle() -> None:
