@@ -27,7 +27,9 @@ from decomp.sites.site_table import SiteTable
 from decomp.vectors import Array, Bools, Ints
 
 ENOUGH = 4
-"""A cell with no more candidates than this is not split."""
+"""A cell with no more candidates than this is not split,"""
+DEEP, CROWDED = 7, 8
+"""and one so many levels down only if it has more than so many."""
 DEPTH_LIMIT = 9
 CELL_LIMIT = 400_000
 
@@ -82,7 +84,7 @@ def candidate_tree(occupancy: OccupancyTree, sites: SiteTable, label: int) -> Ca
         radius = circumradius(half, 4 * occupancy.rounding)
         level = hand_down(occupancy, sites, label, depth, radius, level, centres, parents)
         made += len(centres)
-        split = level.sizes > ENOUGH
+        split = level.sizes > (ENOUGH if depth < DEEP else CROWDED)
         if depth == DEPTH_LIMIT or made + 8 * int(split.sum()) > CELL_LIMIT:
             split[:] = False
         first = made + 8 * (np.cumsum(split) - 1)

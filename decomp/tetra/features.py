@@ -26,8 +26,11 @@ USUAL = 5e-3
 OF_LENGTH = 0.1
 """Epsilon relative to the shortest edges wanted. TetWild tests triangles by samples that are about
 epsilon apart, so its time goes with the square of their ratio."""
-OF_THICKNESS, OF_EDGE = 0.15, 0.12
+OF_THICKNESS, OF_EDGE = 0.2, 0.12
 """Epsilon is at most these parts of the least thickness, and of the shortest edge."""
+OF_THIN, SLENDER = 0.15, 3.0
+"""And at most the first of the least thickness where the largest edges are more than so many times
+as long: nothing holds such triangles off each other in between."""
 OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""
 WIDE = 30.0
@@ -67,11 +70,21 @@ def sharpest_angle(boundary: RegionBoundary) -> float:
     return least
 
 
-def fitting_epsilon(geometry: Geometry, surface: MeshSurface, epsilon: float) -> float:
-    """An epsilon, no larger than a given one, that thin walls and narrow gaps allow."""
+def fitting_epsilon(
+    geometry: Geometry, surface: MeshSurface, epsilon: float, longest: float
+) -> float:
+    """An epsilon, no larger than a given one, that thin walls and narrow gaps allow.
+
+    Args:
+        geometry: of the model.
+        surface: its boundary and skeleton.
+        epsilon: the largest.
+        longest: the length of the largest edges.
+    """
     numbers = range(len(surface.regions))
     thin = min(least_thickness(geometry, surface, number) for number in numbers)
-    epsilon = min(epsilon, OF_THICKNESS * thin)
+    part = OF_THIN if longest > SLENDER * thin else OF_THICKNESS
+    epsilon = min(epsilon, part * thin)
     while epsilon > LEAST * geometry.diagonal and has_gap(
         geometry, surface, epsilon / OF_THICKNESS
     ):
@@ -198,7 +211,7 @@ def _facing(
 
     With their feet on both sides, and how far these are apart (k,).
     """
-    some = sheet.place(some)
+    some = sheet.place(np.unique(some, axis=0))  # triangles share their corners
     way = sheet.normal(some) * (1e-6 * geometry.diagonal)
     one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
     good = (one.region == number) & (two.region == number) & (one.distance > 0)

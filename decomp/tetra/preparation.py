@@ -19,7 +19,7 @@ from decomp.tetra.soup import soup
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.vectors import Array, Ints
 
-CHORD, COARSEST = 0.4, 0.6
+CHORD, COARSEST = 0.4, 0.65
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
@@ -71,9 +71,10 @@ def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) 
     sizes = region_sizes(geometry, wanted)
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
     maker = SurfaceMaker(geometry, tell)
-    epsilon = usual_epsilon(geometry, float(sizes.min()))
+    longest = float(sizes.min())
+    epsilon = usual_epsilon(geometry, longest)
     surface = maker.made(CHORD * epsilon, by_face)
-    epsilon = fitting_epsilon(geometry, surface, epsilon)
+    epsilon = fitting_epsilon(geometry, surface, epsilon, longest)
     surface = _fine_enough(surface, epsilon, maker, by_face)
     tell("sizing", 1.0)
     wish = wishes(geometry, surface, wanted)
