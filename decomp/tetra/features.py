@@ -36,9 +36,9 @@ OF_GAP = 0.3
 WIDE = 30.0
 """Where a sheet ends in an edge at less than this angle (degrees) to the faces, epsilon is smaller:
 TetWild lets it end epsilon / sin(angle) before the edge."""
-ZOOMS, PROMISING = 4, 12
+ZOOMS, PROMISING, CLOSE = 4, 6, 2.0
 """A wall's narrowest place is looked for in so many rounds, with samples a quarter as far apart in
-each, for so many walls in which samples find the least."""
+each, for so many walls in which samples find the least, and less than so many times the least."""
 LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
@@ -156,11 +156,11 @@ def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> fl
         (_narrowest(geometry, surface, own, number, length, 1), own)
         for own in _walls(surface, number)
     ]
-    walls = sorted(walls, key=lambda wall: wall[0])[:PROMISING]
-    for known, own in walls:
-        if known < np.inf:
-            known = min(known, _narrowest(geometry, surface, own, number, length, ZOOMS))
-        least.append(known)
+    walls = sorted(walls, key=lambda wall: wall[0])
+    least += [known for known, _ in walls[:1]]
+    for known, own in walls[:PROMISING]:
+        if known < CLOSE * min(least):
+            least.append(_narrowest(geometry, surface, own, number, length, ZOOMS))
     return min(least, default=np.inf)
 
 
@@ -179,15 +179,16 @@ def _narrowest(
 ) -> float:
     """The least thickness along a sheet: of samples a length apart, then of some ever closer."""
     points, triangles = surface.complex.points, own.triangles
-    best = np.inf
+    middle, reach, best = np.zeros(3), np.inf, np.inf
     for _ in range(rounds):
         some, which = samples(points, triangles, length / 2)
-        (places, *_), wide = _facing(geometry, own.surface, number, some)
+        near = norm(some - middle) < reach
+        (places, *_), wide = _facing(geometry, own.surface, number, some[near])
         if not len(wide):
             break
         best = min(best, float(wide.min()))
-        middle = places[np.argmin(wide)]
-        triangles = triangles[np.unique(which[norm(some - middle) < length])]
+        middle, reach = places[np.argmin(wide)], length
+        triangles = triangles[np.unique(which[norm(some - middle) < reach])]
         length /= 4
     return best
 
