@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from decomp.sites.site import SiteKind
 from decomp.tetra.cells import site_owners
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
-from decomp.vectors import Array, dot, norm
+from decomp.vectors import Array, Ints, dot, norm
 
 FACING = -0.5
 """Feet face each other where the cosine between their directions is below this."""
@@ -152,15 +153,19 @@ def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> fl
     """The least local thickness of a region, infinite where no feet face each other."""
     length = surface.regions[number].boundary.diagonal / SAMPLED
     least = [float(wide.min(initial=np.inf)) for _, wide in _reflexive(geometry, surface, number)]
-    walls = [
-        (_narrowest(geometry, surface, own, number, length, 1), own)
+    looks = [
+        (_looked(geometry, surface, own, number, own.triangles, length), own)
         for own in _walls(surface, number)
     ]
-    walls = sorted(walls, key=lambda wall: wall[0])
-    least += [known for known, _ in walls[:1]]
-    for known, own in walls[:PROMISING]:
-        if known < CLOSE * min(least):
-            least.append(_narrowest(geometry, surface, own, number, length, ZOOMS))
+    looks = sorted(looks, key=lambda each: each[0].thick)[:PROMISING]
+    least += [look.thick for look, _ in looks]
+    for look, own in looks:
+        for zoom in range(1, ZOOMS):
+            if not look.thick < CLOSE * min(least):
+                break
+            apart = length / 4**zoom
+            look = _looked(geometry, surface, own, number, look.triangles, apart, look)
+            least.append(look.thick)
     return min(least, default=np.inf)
 
 
@@ -174,23 +179,34 @@ def _walls(surface: MeshSurface, number: int) -> Iterator[Patch]:
             yield surface.complex.patches[patch]
 
 
-def _narrowest(
-    geometry: Geometry, surface: MeshSurface, own: Patch, number: int, length: float, rounds: int
-) -> float:
-    """The least thickness along a sheet: of samples a length apart, then of some ever closer."""
-    points, triangles = surface.complex.points, own.triangles
-    middle, reach, best = np.zeros(3), np.inf, np.inf
-    for _ in range(rounds):
-        some, which = samples(points, triangles, length / 2)
-        near = norm(some - middle) < reach
-        (places, *_), wide = _facing(geometry, own.surface, number, some[near])
-        if not len(wide):
-            break
-        best = min(best, float(wide.min()))
-        middle, reach = places[np.argmin(wide)], length
-        triangles = triangles[np.unique(which[norm(some - middle) < reach])]
-        length /= 4
-    return best
+class _Look(NamedTuple):
+    """The thinnest of a wall's samples, infinite if there is none, where, and triangles near it."""
+
+    thick: float
+    middle: Array
+    triangles: Ints
+
+
+def _looked(
+    geometry: Geometry,
+    surface: MeshSurface,
+    own: Patch,
+    number: int,
+    triangles: Ints,
+    length: float,
+    before: _Look | None = None,
+) -> _Look:
+    """Look at samples a length apart on triangles of a sheet, about the place of a coarser look."""
+    some, which = samples(surface.complex.points, triangles, length / 2)
+    if before is not None:
+        near = norm(some - before.middle) < 4 * length
+        some, which = some[near], which[near]
+    (places, *_), wide = _facing(geometry, own.surface, number, some)
+    if not len(wide):
+        return _Look(np.inf, np.zeros(3), triangles)
+    middle = places[np.argmin(wide)]
+    near = norm(some - middle) < length
+    return _Look(float(wide.min()), middle, triangles[np.unique(which[near])])
 
 
 def _reflexive(

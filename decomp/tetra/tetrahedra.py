@@ -60,6 +60,7 @@ def filled(given: Prepared, limit: TimeLimit, tell: Progress) -> Filled:
 
 
 def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) -> Filled:
+    """Run TetWild once."""
     geometry, known, plan = given.geometry, given.known, given.plan
     raw = tetrahedralized(
         *given.triangles, settings, given.field, limit, lambda note: tell(note, 0.2)

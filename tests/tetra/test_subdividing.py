@@ -78,7 +78,7 @@ def test_slender_strips_become_ladders():
     assert 24 * 16 * 2 <= len(triangles) <= 24 * 32 * 2
     assert np.allclose(np.hypot(points[:, 0], points[:, 1]), 1.0)
     edges, _ = edges_of(triangles, SIDES)
-    assert norm(points[edges[:, 0]] - points[edges[:, 1]]).min() >= min(0.99 * width, 0.4)
+    assert norm(points[edges[:, 0]] - points[edges[:, 1]]).min() >= 0.99 * width
 
 
 def test_parts_are_even():
