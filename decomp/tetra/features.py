@@ -40,6 +40,8 @@ TetWild lets it end epsilon / sin(angle) before the edge."""
 ZOOMS, PROMISING, CLOSE = 4, 6, 2.0
 """A wall's narrowest place is looked for in so many rounds, with samples a quarter as far apart in
 each, for so many walls in which samples find the least, and less than so many times the least."""
+SETTLED = 0.98
+"""A look that finds no less than this part of what was known is the last."""
 LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
@@ -163,9 +165,11 @@ def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> fl
         for zoom in range(1, ZOOMS):
             if not look.thick < CLOSE * min(least):
                 break
-            apart = length / 4**zoom
+            apart, before = length / 4**zoom, look.thick
             look = _looked(geometry, surface, own, number, look.triangles, apart, look)
             least.append(look.thick)
+            if look.thick > SETTLED * before:
+                break
     return min(least, default=np.inf)
 
 
