@@ -21,7 +21,7 @@ from typing import Any
 import decomp
 from benchmarks.skeleton_table import models
 from decomp.carriers import Plane
-from decomp.output.whole_file import write_whole
+from decomp.files.whole_file import write_whole
 
 ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "docs" / "meshes.md"

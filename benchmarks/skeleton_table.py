@@ -25,8 +25,8 @@ from typing import Any
 import decomp
 from decomp.csg.solid import Solid
 from decomp.errors import DecompError
+from decomp.files.whole_file import write_whole
 from decomp.medial.result import RegionSkeleton, Skeleton
-from decomp.output.whole_file import write_whole
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 

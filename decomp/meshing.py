@@ -105,6 +105,7 @@ def mesh(
         tags[tags > 0],
         (*solid, *groups),
         left,
+        source=geometry.model.source,
     )
     return with_fields(geometry, result, asked, cell) if asked else result
 

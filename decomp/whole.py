@@ -74,6 +74,7 @@ class Whole:
             self.complex,
             radius,
             tuple(regions),
+            geometry.model.source,
         )
         return Result(
             None if failures else made,

@@ -10,13 +10,14 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
 from decomp.errors import DecompError, FileError, InputError
+from decomp.files.targets import check_outputs, reason
 
 PASSED = (
     *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
@@ -51,18 +52,13 @@ def run(options: argparse.Namespace) -> None:
 
     Raises:
         InputError: two would be written to one file.
-        FileError: the directory cannot be made.
+        FileError: the directory cannot be made, or a file cannot be written.
         DecompError: a model failed; the others are written.
     """
     for name in ("report", "html"):
         if getattr(options, name) is not None:
             raise InputError(f"--{name} is for one model; a batch prints a table")
-    folder = _folder(options.output)
-    targets = [folder / f"{model.stem}.{options.format or 'msh'}" for model in options.models]
-    for k, target in enumerate(targets):
-        if target in targets[:k]:
-            first = options.models[targets.index(target)]
-            raise InputError(f"{first} and {options.models[k]} would both be written to {target}")
+    targets = _targets(options)
     outcomes = _meshed(options, targets)
     if not options.quiet:
         print("\n".join(table(outcomes)))
@@ -94,18 +90,32 @@ def table(outcomes: Sequence[Outcome]) -> list[str]:
     return lines
 
 
-def _folder(outputs: Sequence[Path]) -> Path:
-    if len(outputs) > 1:
+def _targets(options: argparse.Namespace) -> list[Path]:
+    """The file for each model, in a directory that is there."""
+    if len(options.output) > 1:
         raise InputError("several models are written into one directory; give -o once")
-    folder = outputs[0] if outputs else Path()
+    folder = options.output[0] if options.output else Path()
+    names = [f"{model.stem}.{options.format or 'msh'}" for model in options.models]
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            first = options.models[names.index(name)]
+            raise InputError(
+                f"{first} and {options.models[k]} would both be written to {folder / name}"
+            )
+    _make(folder)
+    targets = [folder / name for name in names]
+    check_outputs(targets, options.models)
+    return targets
+
+
+def _make(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileError(
-            f"several models are written into a directory, and this is none: {error.strerror}",
+            f"several models are written into a directory, and this is none: {reason(error)}",
             folder,
         ) from None
-    return folder
 
 
 def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcome]:
@@ -139,8 +149,10 @@ def _one(
     assert process.stdin is not None
     assert process.stdout is not None
     assert process.stderr is not None
-    process.stdin.write(json.dumps({**values, "model": str(model), "output": str(target)}))
-    process.stdin.close()
+    given = json.dumps({**values, "model": str(model), "output": str(target)})
+    with suppress(BrokenPipeError):  # a process that has ended at once says why on stderr
+        process.stdin.write(given)
+        process.stdin.close()
     figures, error = None, ""
     for line in process.stdout:
         said = json.loads(line)

@@ -51,7 +51,7 @@ def run(options: argparse.Namespace) -> None:
     from decomp.cli.computing import computed
     from decomp.output.cells import check_directory, write_cells
 
-    check_directory(options.output)
+    check_directory(options.output, options.format, options.model)
     skeleton = computed(options)
     files = write_cells(skeleton, options.output, options.cells, options.format)
     if not options.quiet:

@@ -21,7 +21,8 @@ def register(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> None:
-    """Load and save."""
-    from decomp.formats import load, save
+    """Check the output, load, save."""
+    from decomp.formats import check_saving, load, save
 
+    check_saving(options.output, options.model)
     save(load(options.model), options.output)

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
+from decomp.cli.printed import ReaderGoneError, complain, flushed, printed_at_end
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -51,7 +52,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted.
     """
-    options = parser().parse_args(arguments)
+    try:
+        with flushed():
+            options = parser().parse_args(arguments)
+        with printed_at_end():
+            return _run(options)
+    except DecompError as error:
+        complain(f"decomp: error: {error}")
+        return error.exit_code
+    except KeyboardInterrupt:
+        complain("decomp: interrupted")
+        return INTERRUPTED
+    except ReaderGoneError:
+        return 0
+
+
+def _run(options: argparse.Namespace) -> int:
     if options.version:
         from importlib.metadata import version
 
@@ -60,18 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.command is None:
         parser().print_help()
         return 2
-    try:
-        options.run(options)
-    except DecompError as error:
-        print(f"decomp: error: {error}", file=sys.stderr)
-        return error.exit_code
-    except KeyboardInterrupt:
-        print("decomp: interrupted", file=sys.stderr)
-        return INTERRUPTED
-    except BrokenPipeError:
-        # the reader of our output has gone (as `head` does): nothing is left to say
-        sys.stderr.close()
-        return 0
+    options.run(options)
     return 0
 
 

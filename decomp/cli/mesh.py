@@ -146,8 +146,10 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
     from decomp.errors import InputError
+    from decomp.files.suffixes import known_suffix
+    from decomp.files.targets import check_outputs
+    from decomp.files.whole_file import write_whole
     from decomp.output.mesh import suffix_of
-    from decomp.output.whole_file import check_target, write_whole
     from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
@@ -163,11 +165,12 @@ def run(options: argparse.Namespace) -> None:
     checked_fields(options.fields)
     if options.fields and not suffixes & {".msh", ".vtu"}:
         raise InputError("--fields are written into .msh and .vtu files; give one with -o")
-    for path in outputs:
-        check_target(path)
-    for path in (options.report, options.html):
+    more = ((options.report, ".json", "reports"), (options.html, ".html", "pages"))
+    for path, suffix, what in more:
         if path is not None:
-            check_target(path)
+            known_suffix(path, (suffix,), what)
+    others = [path for path, *_ in more if path is not None]
+    check_outputs([*outputs, *others], [options.model])
     mesh, figures = meshed(options)
     written(mesh, options, outputs)
     if options.report is not None:

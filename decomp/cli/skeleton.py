@@ -48,15 +48,15 @@ def register(commands: Any) -> None:
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute, write, print."""
     from decomp.cli.computing import computed
+    from decomp.files.targets import check_outputs
     from decomp.output import suffix_of, write
-    from decomp.output.whole_file import check_target
 
     if options.facing is not None:
         _run_facing(options)
         return
     for path in options.output:
         suffix_of(path)
-        check_target(path)
+    check_outputs(options.output, [options.model])
     skeleton = computed(options)
     for path in options.output:
         write(skeleton, path, boundary=options.boundary, trims=options.trims)
@@ -72,16 +72,16 @@ def _run_facing(options: argparse.Namespace) -> None:
     """The same for the mid-surface."""
     from decomp.cli.computing import computed
     from decomp.errors import InputError
+    from decomp.files.targets import check_outputs
     from decomp.medial.facing import mid_surface
     from decomp.output.mid_surface import suffix_of
-    from decomp.output.whole_file import check_target
 
     for name in ("boundary", "trims", "json"):
         if getattr(options, name):
             raise InputError(f"--facing writes sheets alone; leave --{name} away")
     for path in options.output:
         suffix_of(path)
-        check_target(path)
+    check_outputs(options.output, [options.model])
     skeleton = computed(options)
     surface = mid_surface(skeleton, options.facing)
     for path in options.output:

@@ -32,18 +32,18 @@ def register(commands: Any) -> None:
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute if need be, write or show."""
     from decomp.cli.computing import computed
-    from decomp.output.suffixes import known_suffix
-    from decomp.output.whole_file import check_target, write_whole
+    from decomp.files.suffixes import known_suffix
+    from decomp.files.targets import check_outputs
+    from decomp.files.whole_file import write_whole
     from decomp.view import image, page
     from decomp.view.scene import MODELS, scene_of
 
-    for path in options.output:
-        known_suffix(path, SUFFIXES, "views")
-        check_target(path)
+    suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
+    check_outputs(options.output, [options.model])
     is_model = options.model.suffix.lower() in MODELS
     scene = scene_of(options.model, computed(options) if is_model else None)
-    for path in options.output:
-        encode = page.encoded if path.suffix.lower() == ".html" else image.encoded
+    for path, suffix in zip(options.output, suffixes, strict=True):
+        encode = page.encoded if suffix == ".html" else image.encoded
         write_whole(path, encode(scene))
     if not options.output:
         show(scene)

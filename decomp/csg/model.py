@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from decomp.csg.solid import Options, Solid, checked_name, no_options
 from decomp.errors import InputError
@@ -35,6 +36,7 @@ class Model:
         regions: at least one; names must differ.
         name: what to call the model in reports.
         ignored: statements of the file that were not used.
+        source: the file that it was read from, None if from none; no output may replace it.
 
     Raises:
         InputError: no region, or two of the same name.
@@ -43,6 +45,7 @@ class Model:
     regions: tuple[Region, ...]
     name: str = "model"
     ignored: tuple[Ignored, ...] = ()
+    source: Path | None = None
 
     def __post_init__(self) -> None:
         if not self.regions:

@@ -5,22 +5,28 @@ The readers are loaded when they are first used, as they bring in a parser libra
 
 from __future__ import annotations
 
-import os
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 from decomp.errors import FileError, InputError, ParseError
+from decomp.files.suffixes import known_suffix
+from decomp.files.targets import check_outputs, reason
+from decomp.files.whole_file import write_whole
 from decomp.formats.foreign import advice
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
     from decomp.csg.solid import Solid
+    from decomp.formats.source import Source
 
 Format = Literal["geo", "csg", "json"]
 """Netgen, OpenSCAD, native."""
 
 FORMATS: tuple[Format, ...] = get_args(Format)
+SAVED = (".json",)
+"""Suffixes of files that models are written to."""
 MAX_BYTES = 200_000_000
 EXPECTED = "expected Netgen .geo (algebraic3d), OpenSCAD .csg or decomp .json"
 
@@ -47,11 +53,16 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
     """Read a model from text; a native model's own name goes before `name`.
 
     Args:
-        path: where the text came from, for error messages.
+        path: where the text came from, for error messages and for the model to remember.
     """
     from decomp.formats.source import Source
 
     source = Source(text.replace("\r\n", "\n").replace("\r", "\n"), path)
+    found = _read(source, form, name)
+    return found if path is None else replace(found, source=Path(path).absolute())
+
+
+def _read(source: Source, form: Format, name: str) -> Model:
     match form:
         case "geo":
             from decomp.formats import netgen
@@ -72,28 +83,40 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
 def save(source: Model | Solid | dict[str, Solid], path: str | Path) -> None:
     """Write a model, a solid or named solids as native JSON, at once or not at all.
 
+    Args:
+        source: to write.
+        path: ends in .json, and is not the file that the model was read from.
+
     Raises:
+        InputError: the suffix is another, or a name cannot be written.
         FileError: the file cannot be written.
     """
     from decomp.csg.model import Model, model
     from decomp.formats import native
 
-    text = native.dumps(source if isinstance(source, Model) else model(source))
-    target = Path(os.path.realpath(path))
-    if target.is_dir():
-        raise FileError("this is a directory; give the name of a file to write", path)
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    made = source if isinstance(source, Model) else model(source)
+    check_saving(path, made.source)
+    text = native.dumps(made)
     try:
-        try:
-            with temporary.open("w", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-            temporary.replace(target)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        raise FileError(f"cannot be written: {_reason(error)}", path) from None
+        data = text.encode()
     except UnicodeEncodeError as error:
         raise InputError(f"a name or option has no UTF-8 form: {error.object!r}") from None
+    write_whole(path, data)
+
+
+def check_saving(path: str | Path, source: str | Path | None) -> None:
+    """See whether a model can be saved.
+
+    Args:
+        path: of the file to write.
+        source: the file that the model is read from, if any.
+
+    Raises:
+        InputError: its suffix is not .json.
+        FileError: it cannot be written, or is the source.
+    """
+    known_suffix(path, SAVED, "models")
+    check_outputs([path], [source])
 
 
 def _bytes(file: Path) -> bytes:
@@ -109,7 +132,7 @@ def _bytes(file: Path) -> bytes:
             raise FileError(f"the file has {size:,} bytes; at most {MAX_BYTES:,} are read", file)
         return file.read_bytes()
     except (OSError, ValueError) as error:
-        raise FileError(f"cannot be read: {_reason(error)}", file) from None
+        raise FileError(f"cannot be read: {reason(error)}", file) from None
 
 
 def _text(data: bytes, file: Path, form: Format | None) -> str:
@@ -151,7 +174,3 @@ def _no_model(what: str, file: Path) -> ParseError:
     return ParseError(
         f"{what}; {EXPECTED}" + (f". {known[0].upper()}{known[1:]}" if known else ""), file
     )
-
-
-def _reason(error: OSError | ValueError) -> str:
-    return (error.strerror if isinstance(error, OSError) else None) or str(error)

@@ -16,14 +16,16 @@ from typing import Any, NoReturn, TypeVar, cast
 
 from numba import njit, types
 
+from decomp.kernels.cache import KernelCache
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 
 def kernel(function: F) -> F:
     """Compile a function on first use, without the GIL, and cache it where that can be done.
 
-    Numba keeps the machine code beside the source or in the user's cache directory. Where
-    neither is writable it is compiled again in every process.
+    The machine code is kept beside the source or in the user's cache directory
+    (`decomp.kernels.cache`). Where neither can be written it is compiled again in every process.
     """
     return _compiled(function)
 
@@ -56,13 +58,20 @@ def inlined(function: F) -> F:
 def _compiled(function: F, **options: bool) -> F:
     common: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
     common.update(options)
-    try:
-        compiled: Any = njit(cache=True, **common)(function)
-    except RuntimeError:  # numba found no directory to write to
-        compiled = njit(**common)(function)
-    else:
+    compiled: Any = njit(**common)(function)
+    cache = _cache(function)
+    if cache is not None:
+        compiled._cache = cache
         restamp(compiled, Path(function.__code__.co_filename).parent, Path(__file__).parent)
     return cast(F, _without_collecting(_for_plain_types(compiled)))
+
+
+def _cache(function: Callable[..., Any]) -> KernelCache | None:
+    """Where its machine code is kept; None if numba finds no directory to write to."""
+    try:
+        return KernelCache(function)
+    except RuntimeError:
+        return None
 
 
 def _without_collecting(compiled: Any) -> Any:

@@ -40,6 +40,7 @@ class MidSurface:
         sheet: (m,) number of the sheet, through all regions.
         sites: (m, 2) between which it lies, indices into `Skeleton.sites`.
         sheet_names: `region/sheet-N` by number.
+        source: the file that the model was read from, if any; no output may replace it.
     """
 
     name: str
@@ -52,6 +53,7 @@ class MidSurface:
     sheet: Ints
     sites: Ints
     sheet_names: tuple[str, ...]
+    source: Path | None = None
 
     @property
     def area(self) -> float:
@@ -63,7 +65,8 @@ class MidSurface:
         """Write to a file, whole or not at all.
 
         Args:
-            path: ends in .vtu, .ply, .obj or .stl.
+            path: ends in .vtu, .ply, .obj or .stl, and is not the file that the model was read
+                from.
 
         Raises:
             InputError: the suffix is unknown.
@@ -134,4 +137,5 @@ def mid_surface(skeleton: Skeleton, facing: float = FACING) -> MidSurface:
         owner,
         np.array(between, dtype=np.int64).reshape(-1, 2)[owner],
         tuple(names),
+        skeleton.source,
     )

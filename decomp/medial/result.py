@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
@@ -185,6 +186,7 @@ class Skeleton:
         complex: all triangles and lines.
         radius: distance (n,) from each of the complex's points to the boundary, 0 on it.
         regions: in the model's order.
+        source: the file that the model was read from, if any; no output may replace it.
     """
 
     name: str
@@ -194,3 +196,4 @@ class Skeleton:
     complex: Complex
     radius: Array
     regions: tuple[RegionSkeleton, ...]
+    source: Path | None = None

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from decomp.output.suffixes import known_suffix
+from decomp.files.suffixes import known_suffix
 
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
@@ -33,7 +33,7 @@ def write(
 
     Args:
         skeleton: to write.
-        path: ends in one of `SUFFIXES`.
+        path: ends in one of `SUFFIXES`, and is not the file that the model was read from.
         boundary: write the boundary's faces and edges too.
         trims: write the trim surfaces too. JSON has no triangles and heeds neither.
 
@@ -41,11 +41,13 @@ def write(
         InputError: the suffix is unknown.
         FileError: the file cannot be written.
     """
+    from decomp.files.targets import check_outputs
+    from decomp.files.whole_file import write_whole
     from decomp.output import as_json, obj, ply, vtu
     from decomp.output.elements import elements
-    from decomp.output.whole_file import write_whole
 
     suffix = suffix_of(path)
+    check_outputs([path], [skeleton.source])
     if suffix == ".json":
         write_whole(path, as_json.encoded(skeleton))
         return

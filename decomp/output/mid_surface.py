@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from decomp.files.suffixes import known_suffix
 from decomp.output.elements import KINDS, Elements
-from decomp.output.suffixes import known_suffix
 
 if TYPE_CHECKING:
     from decomp.medial.facing import MidSurface
@@ -30,16 +30,18 @@ def write(surface: MidSurface, path: str | Path) -> None:
 
     Args:
         surface: to write. `.vtu` and `.ply` hold the thickness; `.obj` groups triangles by sheet.
-        path: ends in one of `SUFFIXES`.
+        path: ends in one of `SUFFIXES`, and is not the file that the model was read from.
 
     Raises:
         InputError: the suffix is unknown.
         FileError: the file cannot be written.
     """
+    from decomp.files.targets import check_outputs
+    from decomp.files.whole_file import write_whole
     from decomp.output import obj, ply, stl, vtu
-    from decomp.output.whole_file import write_whole
 
     suffix = suffix_of(path)
+    check_outputs([path], [surface.source])
     if suffix == ".stl":
         write_whole(path, stl.surface(surface.points, surface.triangles))
         return

@@ -7,6 +7,7 @@ on bad input, and may exit with 0 without any result. So only a readable, sound 
 from __future__ import annotations
 
 import contextlib
+import io
 import math
 import os
 import signal
@@ -14,14 +15,15 @@ import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from decomp.errors import DecompError, GeometryError, InputError
-from decomp.tetra.worker import MISSING, SPENT
+from decomp.errors import DecompError, FileError, GeometryError, InputError
+from decomp.files.targets import reason
+from decomp.tetra.worker import FULL, MISSING, SPENT
 from decomp.vectors import Array, Ints
 
 WORKER = Path(__file__).with_name("worker.py")
@@ -30,6 +32,7 @@ EDGE_IN_EPSILONS = 6.0
 ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
 PATIENCE = 4.0
 """By the clock, work may take so many times as long as on a machine with nothing else to do."""
+ROOM = "set TMPDIR to a directory with room"
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
@@ -151,6 +154,7 @@ def tetrahedralized(
 
     Raises:
         InputError: the triangles or settings would crash or hang it; pytetwild is missing.
+        FileError: there is no room for its files in the directory for temporary ones.
         MeshingError: both tries failed.
     """
     _check(points, triangles, settings)
@@ -227,10 +231,16 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
     Raises:
         MeshingError: it crashed, hung, or gave nothing.
         InputError: pytetwild is missing.
+        FileError: its files cannot be written.
     """
-    with tempfile.TemporaryDirectory(prefix="decomp-") as directory:
+    packed = io.BytesIO()
+    np.savez(packed, **arrays)  # type: ignore[arg-type]
+    with _directory() as directory:
         source, target = Path(directory) / "in.npz", Path(directory) / "out.npz"
-        np.savez(source, **arrays)  # type: ignore[arg-type]
+        try:
+            source.write_bytes(packed.getvalue())
+        except OSError as error:
+            raise _no_room(directory, reason(error)) from None
         process = subprocess.Popen(
             [sys.executable, "-P", str(WORKER), str(source), str(target), str(limit.busy)],
             cwd=directory,
@@ -249,11 +259,28 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
             raise InputError(
                 f"{errors.decode(errors='replace').strip()}: pip install pytetwild==0.4.2"
             )
+        if process.returncode == FULL:
+            raise _no_room(directory, errors.decode(errors="replace").strip())
         if process.returncode == -SPENT:
             raise MeshingError(f"did not end within {limit.busy:g} s of computing")
         if process.returncode:
             raise MeshingError(_failure(process.returncode, errors))
         return _result(target)
+
+
+@contextlib.contextmanager
+def _directory() -> Iterator[str]:
+    """A directory that is gone afterwards."""
+    try:
+        made = tempfile.TemporaryDirectory(prefix="decomp-")
+    except OSError as error:
+        raise FileError(f"no temporary directory can be made: {reason(error)}; {ROOM}") from None
+    with made as directory:
+        yield directory
+
+
+def _no_room(directory: str, why: str) -> FileError:
+    return FileError(f"TetWild's files cannot be written: {why}; {ROOM}", Path(directory).parent)
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

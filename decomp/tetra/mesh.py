@@ -75,6 +75,7 @@ class TetMesh:
             exact geometry without spoiling a tetrahedron; ascending.
         point_data: (n,) values at nodes by name: the fields asked for, see `decomp.tetra.fields`.
         cell_data: (m,) values of tetrahedra by name.
+        source: the file that the model was read from, if any; no output may replace it.
     """
 
     name: str
@@ -87,6 +88,7 @@ class TetMesh:
     unprojected: Ints
     point_data: Mapping[str, Array] = field(default_factory=dict)
     cell_data: Mapping[str, Ints] = field(default_factory=dict)
+    source: Path | None = None
 
     @property
     def order(self) -> int:
@@ -108,7 +110,8 @@ class TetMesh:
         """Write to a file, whole or not at all.
 
         Args:
-            path: ends in .msh, .vtu, .xdmf, .inp or .mesh.
+            path: ends in .msh, .vtu, .xdmf, .inp, .mesh or .png, and is not the file that the
+                model was read from.
             text: write Gmsh's format 4.1 as text, not binary.
             version: of Gmsh's format, 4.1 or 2.2 (always text).
 

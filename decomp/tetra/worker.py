@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import io
 import math
 import signal
 import sys
@@ -21,6 +22,8 @@ VERSION = "0.4.2"
 """Of pytetwild, whose extension's arguments are given by place."""
 MISSING = 3
 """Exit code: pytetwild is not installed."""
+FULL = 4
+"""Exit code: the result cannot be written; stderr says why."""
 SPENT = 24
 """Signal that ends it when its seconds of computing are spent (SIGXCPU)."""
 PR_SET_PDEATHSIG = 1
@@ -88,8 +91,14 @@ def main(source: str, target: str, seconds: str) -> int:
         given["field_tets"].astype(np.int32),
         given["field_sizes"],
     )
-    # savez writes in place: the parent reads only after this process has ended well
-    np.savez(target, points=points, tets=tets)
+    packed = io.BytesIO()
+    np.savez(packed, points=points, tets=tets)
+    # written in place: the parent reads only after this process has ended well
+    try:
+        Path(target).write_bytes(packed.getvalue())
+    except OSError as error:
+        print(error.strerror or error, file=sys.stderr)
+        return FULL
     return 0
 
 

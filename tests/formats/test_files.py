@@ -53,9 +53,9 @@ def test_save_and_load(tmp_path: Path) -> None:
     path.write_text("old")
     save(model({"a": Sphere((0, 0, 0), 1)}, "ball"), str(path))
     assert load(path).name == "ball"
-    save(load(path), tmp_path / "again")
-    assert (tmp_path / "again").read_bytes() == path.read_bytes()
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["again", "x.json"]
+    save(load(path), tmp_path / "again.json")
+    assert (tmp_path / "again.json").read_bytes() == path.read_bytes()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["again.json", "x.json"]
 
 
 def test_save_solids(tmp_path: Path) -> None:
@@ -81,13 +81,17 @@ def test_save_replaces_nothing_when_it_fails(
 
 def test_save_to_a_wrong_place(tmp_path: Path) -> None:
     ball = model(Sphere((0, 0, 0), 1))
+    (tmp_path / "folder.json").mkdir()
     with pytest.raises(FileError, match="this is a directory"):
-        save(ball, tmp_path)
-    with pytest.raises(FileError, match="cannot be written: No such file or directory"):
+        save(ball, tmp_path / "folder.json")
+    with pytest.raises(FileError, match="cannot be written: its directory does not exist"):
         save(ball, tmp_path / "missing" / "x.json")
     with pytest.raises(InputError, match="no UTF-8 form"):
         save(model(Sphere((0, 0, 0), 1), "\ud800"), tmp_path / "x.json")
-    assert list(tmp_path.iterdir()) == []
+    for name in ("x", "x.geo", "-"):
+        with pytest.raises(InputError, match=r"as a suffix for models; use \.json"):
+            save(ball, tmp_path / name)
+    assert [path.name for path in tmp_path.iterdir()] == ["folder.json"]
 
 
 def test_missing_file(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from decomp.errors import InputError
-from decomp.output.suffixes import known_suffix
+from decomp.files.suffixes import known_suffix
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
@@ -53,7 +53,7 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
 
     Args:
         mesh: to write.
-        path: ends in one of `SUFFIXES`.
+        path: ends in one of `SUFFIXES`, and is not the file that the model was read from.
         text: write Gmsh's format 4.1 as text; other formats are as they are.
         version: of Gmsh's format, one of `VERSIONS`; 2.2 is always text.
 
@@ -61,10 +61,11 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
         InputError: the suffix or the version is unknown.
         FileError: the file cannot be written.
     """
-    from decomp.output.whole_file import check_target, write_whole
+    from decomp.files.targets import check_outputs
+    from decomp.files.whole_file import write_whole
 
     suffix = suffix_of(path)
     if version not in VERSIONS:
         raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(VERSIONS)}")
-    check_target(path)
+    check_outputs([path], [mesh.source])
     write_whole(path, encoded(mesh, suffix, text=text, version=version))

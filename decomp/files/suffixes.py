@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from decomp.errors import InputError
+from decomp.files.targets import is_special
 
 
 def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
     """The suffix of a path, in lower case.
+
+    Devices, pipes and open streams (`/dev/stdout`) need none, and are given the first.
 
     Args:
         path: of a file to write.
@@ -20,6 +23,8 @@ def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
         InputError: it is none of `suffixes`.
     """
     suffix = Path(path).suffix.lower()
+    if not suffix and is_special(path):
+        return suffixes[0]
     if suffix not in suffixes:
         said = f"{suffix!r} is unknown" if suffix else "there is none"
         raise InputError(f"{path}: {said} as a suffix for {what}; use {', '.join(suffixes)}")

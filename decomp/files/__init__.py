@@ -1,0 +1,1 @@
+"""Files to write: what may be written where, whole or not at all."""
