@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
-from decomp.cli.printed import ReaderGoneError, complain, flushed, printed_at_end
+from decomp.cli.printed import ReaderGoneError, complain, printing
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -53,10 +53,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted.
     """
     try:
-        with flushed():
-            options = parser().parse_args(arguments)
-        with printed_at_end():
-            return _run(options)
+        with printing():
+            return _run(parser().parse_args(arguments))
     except DecompError as error:
         complain(f"decomp: error: {error}")
         return error.exit_code

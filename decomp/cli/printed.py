@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
-from typing import TextIO
+from typing import Any, TextIO, cast
 
 from decomp.errors import FileError
 from decomp.files.targets import reason
@@ -18,28 +17,23 @@ class ReaderGoneError(Exception):
 
 
 @contextmanager
-def printed_at_end() -> Iterator[None]:
-    """Have all that is printed written when the body ends, in whatever way it does.
+def printing() -> Iterator[None]:
+    """Have a stdout that cannot be written told of as any other file; it is flushed at the end.
 
     Raises:
         FileError: stdout cannot be written.
         ReaderGoneError: nobody reads it any more.
     """
-    said = io.StringIO()
+    stream = sys.stdout
+    if stream is None:  # closed before the process began: nothing is printed
+        yield
+        return
+    guarded = _Guarded(stream)
     try:
-        with redirect_stdout(said):
+        with redirect_stdout(cast(TextIO, guarded)):
             yield
     finally:
-        _write(sys.stdout, said.getvalue())
-
-
-@contextmanager
-def flushed() -> Iterator[None]:
-    """Have what is printed arrive before the body ends; raises the same."""
-    try:
-        yield
-    finally:
-        _write(sys.stdout, "")
+        guarded.flush()
 
 
 def complain(text: str) -> None:
@@ -48,19 +42,37 @@ def complain(text: str) -> None:
         print(text, file=sys.stderr, flush=True)
 
 
-def _write(stream: TextIO | None, text: str) -> None:
-    if stream is None:  # closed before the process began
-        return
+class _Guarded:
+    """A stream whose writing fails with the errors that `printing` tells of."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text."""
+        with _failing(self._stream):
+            return self._stream.write(text)
+
+    def flush(self) -> None:
+        """Write what is left."""
+        with _failing(self._stream):
+            self._stream.flush()
+
+
+@contextmanager
+def _failing(stream: TextIO) -> Iterator[None]:
     try:
-        stream.write(text)
-        stream.flush()
+        yield
     except BrokenPipeError:
         _drop(stream)
         raise ReaderGoneError from None
     except UnicodeEncodeError as error:
         raise FileError(
             f"cannot be written: its encoding, {error.encoding}, has no "
-            f"{error.object[error.start : error.end]!r}; set PYTHONIOENCODING=utf-8",
+            f"{error.object[error.start : error.end]!a}; set PYTHONIOENCODING=utf-8",
             "standard output",
         ) from None
     except OSError as error:

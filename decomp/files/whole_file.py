@@ -38,10 +38,11 @@ def write_whole(path: str | Path, data: bytes) -> None:
 def _replaced(target: Path, old: os.stat_result | None, data: bytes) -> None:
     temporary = target.with_name(f".decomp-{secrets.token_hex(8)}.tmp")
     try:
-        with temporary.open("xb") as file:
-            if old is not None:
-                _as_before(temporary, old)
-            file.write(data)
+        # others may not have been allowed to read the old file: they may not read the new one early
+        temporary.touch(0o666 if old is None else 0o600, exist_ok=False)
+        temporary.write_bytes(data)
+        if old is not None:
+            _as_before(temporary, old)
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""Kept machine code: files that are cut off, wrong or cannot be written make kernels compile anew."""
+"""Kept machine code: files that are cut off or cannot be written have kernels compiled anew."""
 
 from __future__ import annotations
 
@@ -14,7 +14,12 @@ from decomp.kernels.cache import CheckedFiles
 from tests.files.small_disk import small_disk
 
 NUMBERS = itertools.count()
-SOURCE = "from decomp.kernels.compiled import kernel\n\n@kernel\ndef twice(x):\n    return {factor} * x\n"
+SOURCE = """from decomp.kernels.compiled import kernel
+
+@kernel
+def twice(x):
+    return {factor} * x
+"""
 
 
 @pytest.fixture
