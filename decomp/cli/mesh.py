@@ -160,7 +160,7 @@ def run(options: argparse.Namespace) -> None:
         batch.run(options)
         return
     options.model = options.models[0]
-    outputs = options.output or [Path(f"{options.model.stem or 'model'}.msh")]
+    outputs = options.output or [_default(options.model)]
     suffixes = {suffix_of(path) for path in outputs}
     checked_fields(options.fields)
     if options.fields and not suffixes & {".msh", ".vtu"}:
@@ -183,6 +183,21 @@ def run(options: argparse.Namespace) -> None:
     if not options.quiet:
         print("\n".join(as_text(figures)))
         print(f"  written: {', '.join(str(path) for path in outputs)}")
+
+
+def _default(model: Path) -> Path:
+    """The file to write if none is named.
+
+    Raises:
+        DecompError: it is the model's own, and that is none: the user has given a mesh.
+    """
+    from decomp.files.targets import same_file
+    from decomp.formats import load
+
+    output = Path(f"{model.stem or 'model'}.msh")
+    if same_file(output, model):
+        load(model)
+    return output
 
 
 def written(mesh: TetMesh, options: argparse.Namespace, outputs: Sequence[Path]) -> None:

@@ -21,8 +21,11 @@ from tests.mesh_output.shapes import bar, cube
 
 PAGE = (Path(__file__).parent.parent.parent / "docs" / "limits.md").read_text()
 GEO = "algebraic3d\n"
+PART = GEO + "solid part = orthobrick (0,0,0; 40,30,5);\ntlo part;\n"
 FILES = {
-    "part.geo": GEO + "solid part = orthobrick (0,0,0; 40,30,5);\ntlo part;\n",
+    "part.geo": PART,
+    "same.json": PART,
+    "index.json": PART,
     "part.stl": "solid part\n",
     "part.step": "ISO-10303-21;\n",
     "part.vtu": "<VTKFile/>\n",
@@ -59,6 +62,8 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
     cube().write(tmp_path / "part.msh", text=True)
+    (tmp_path / "linked.json").symlink_to("part.geo")
+    (tmp_path / "closed.msh").touch(0o444)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(memory, "available_memory", lambda: FREE)
     monkeypatch.setitem(sys.modules, "pyvista", None)

@@ -70,7 +70,6 @@ REFUSED = [
     ("mesh part.geo --report hard.json", LOST),
     ("mesh part.geo --report closed.json", CLOSED),
     ("mesh part.geo --html soft.html", LOST),
-    ("mesh part.msh", LOST),
     ("mesh part.geo -o new.vtu -o hard.msh", LOST),
     ("mesh other.geo -o new.msh -o ./new.msh", TWICE),
     ("mesh other.geo -o soft.msh -o hard.msh", TWICE),
@@ -110,6 +109,18 @@ def test_what_would_be_lost_is_kept(
     assert re.search(message, captured.err), captured.err
     assert contents(folder) == before
     assert not list((folder / "empty").iterdir())
+
+
+def test_the_default_output_may_be_the_model(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Which is refused; a mesh in the place of a model is told to be one."""
+    monkeypatch.chdir(tmp_path)
+    for text, message in ((TEXT, LOST), ("$MeshFormat\n", "This is a mesh, not a model")):
+        Path("part.msh").write_text(text)
+        assert main(["mesh", "part.msh"]) == 2
+        assert message in capsys.readouterr().err
+        assert Path("part.msh").read_text() == text
 
 
 def test_a_batch_of_links_to_one_place(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
