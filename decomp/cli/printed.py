@@ -38,6 +38,8 @@ def printing() -> Iterator[None]:
 
 def complain(text: str) -> None:
     """A line on stderr. Where that cannot be written either, the exit code alone tells."""
+    if sys.stderr is None:  # closed before the process began
+        return
     with suppress(OSError):
         print(text, file=sys.stderr, flush=True)
 

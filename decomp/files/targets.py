@@ -69,7 +69,7 @@ def check_target(path: str | Path) -> None:
             raise FileError("cannot be written: its directory does not exist", path)
         if not os.access(target.parent, os.W_OK):
             raise FileError("cannot be written: its directory is not writable", path)
-    if found is not None and not (_any_may_write(found) and os.access(target, os.W_OK)):
+    if found is not None and not (_any_may_write(found) and os.access(path, os.W_OK)):
         raise FileError(
             "cannot be written: it is read-only; give another name or allow writing", path
         )
@@ -124,17 +124,19 @@ def descriptor(path: str | Path) -> int | None:
 
 
 def same_file(one: str | Path, other: str | Path) -> bool:
-    """Whether two names are of one file, or would be: links, hard ones too, are seen through.
-
-    Raises:
-        FileError: the system does not say.
-    """
+    """Whether two names are of one file, or would be: links, hard ones too, are seen through."""
     return _identity(one) == _identity(other)
 
 
 def _identity(path: str | Path) -> Identity:
-    """Where a file is kept; where it would be if it is not there yet."""
-    found = status(path)
+    """Where a file is kept; where it would be if it is not there yet.
+
+    What the system does not tell of can be neither read nor written: who tries it says why.
+    """
+    try:
+        found = status(path)
+    except FileError:
+        return str(Path(path).absolute())
     return os.path.realpath(path) if found is None else (found.st_dev, found.st_ino)
 
 

@@ -201,6 +201,7 @@ def test_no_output_is_an_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         with pytest.raises(FileError, match="this file is read"):
             check_outputs([tmp_path / "other", name], [None, tmp_path / "x"])
     check_outputs([tmp_path / "other"], [tmp_path / "x", tmp_path / "gone"])
+    check_outputs([tmp_path / "other"], ["x" * 1000, "x\0"])  # whoever reads these says so
 
 
 def test_no_two_outputs_are_one_file(tmp_path: Path) -> None:
