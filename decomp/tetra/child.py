@@ -270,11 +270,17 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
 
 @contextlib.contextmanager
 def _directory() -> Iterator[str]:
-    """A directory that is gone afterwards."""
+    """A directory that is gone afterwards.
+
+    Where TMPDIR names one that cannot be used, Python would take another without a word.
+    """
+    place = os.environ.get("TMPDIR") or None
     try:
-        made = tempfile.TemporaryDirectory(prefix="decomp-")
+        made = tempfile.TemporaryDirectory(prefix="decomp-", dir=place)
     except OSError as error:
-        raise FileError(f"no temporary directory can be made: {reason(error)}; {ROOM}") from None
+        raise FileError(
+            f"no temporary directory can be made here: {reason(error)}; {ROOM}", place
+        ) from None
     with made as directory:
         yield directory
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -92,16 +91,17 @@ CUBE = np.array(
 )
 
 
-@pytest.mark.parametrize("kilobytes", [4, 12], ids=["input", "result"])
+@pytest.mark.parametrize("ballast", [20, 16], ids=["input", "result"])
 def test_no_room_for_temporary_files(
-    kilobytes: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ballast: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Neither for what TetWild is given nor for what it makes; it is not tried again."""
-    with small_disk(tmp_path / "disk", kilobytes) as disk:
-        monkeypatch.setattr(tempfile, "tempdir", str(disk))
+    with small_disk(tmp_path / "disk", 20) as disk:
+        monkeypatch.setenv("TMPDIR", str(disk))
+        (disk / "ballast").write_bytes(bytes(1024 * ballast))
         with pytest.raises(FileError, match=r"disk: TetWild's files .* space .* set TMPDIR to a"):
             tetrahedralized(CORNERS, CUBE, Settings(0.1, 0.01))
-        assert not list(disk.iterdir())
+        assert [path.name for path in disk.iterdir()] == ["ballast"]
 
 
 def test_no_directory_for_temporary_files(
@@ -109,9 +109,9 @@ def test_no_directory_for_temporary_files(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("part.geo").write_text("algebraic3d\nsolid p = orthobrick (0,0,0; 1,1,1);\ntlo p;\n")
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "none"))
     assert main(["mesh", "part.geo", "--size", "0.6"]) == 2
     errors = capsys.readouterr().err
-    assert errors.startswith("decomp: error: no temporary directory can be made: No such file")
+    assert "none: no temporary directory can be made here: No such file or directory; " in errors
     assert errors.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["part.geo"]
