@@ -118,6 +118,7 @@ def assert_shows(shown: dict[str, Any], source: Said, reference: bool) -> None:
     assert shown["pictures"] == [[told, True] for told in source.pictures]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("source", SOURCES)
 def test_pages_show_their_sources(
     source: str, site: Path, address: str, chromium: Any, tmp_path: Path
@@ -133,6 +134,7 @@ def test_pages_show_their_sources(
         page.close()
 
 
+@pytest.mark.slow
 def test_links_lead_somewhere(site: Path, address: str, chromium: Any) -> None:
     names, links = {}, set()
     for source in SOURCES:
