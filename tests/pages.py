@@ -36,7 +36,7 @@ def blocks(page: str) -> Iterator[tuple[str, str, str]]:
         if token.type == "fence":
             fence = FENCE.fullmatch(token.info)
             known = fence is not None and (fence[2] or fence[1] in LANGUAGES)
-            assert fence and known, f"{page}: a fence begins with {token.info!r}; see tests/pages.py"
+            assert fence and known, f"{page}: a fence with {token.info!r}; see tests/pages.py"
             transcript = token.content.startswith("$ ")
             assert transcript == (fence[1] == "console"), f"{page}: `$ ` makes a `console` block"
             yield fence[1], fence[2] or "", token.content
