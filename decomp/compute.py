@@ -17,15 +17,18 @@ from decomp.certificate.certificate import VOLUME
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.drafts import SAMPLES, SHARE, drafted, traced
-from decomp.errors import GeometryError
+from decomp.errors import GeometryError, InputError
 from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
 from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.result import Skeleton
+from decomp.vectors import number
 from decomp.whole import Whole
 
 TOLERANCE = 5e-4
 """Default chord tolerance, relative to the model's diagonal."""
+COARSEST = 0.1
+"""The largest that can be asked for."""
 TRACING = 0.6
 """The part of the whole that tracing is taken for."""
 FINENESSES = 4
@@ -46,14 +49,17 @@ def skeleton(
     Args:
         source: a geometry, or what one can be made of.
         tolerance: largest distance of triangles from their exact surfaces, relative to the
-            model's diagonal.
+            model's diagonal: above 0 and at most 0.1.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
+        InputError: the tolerance is out of its range.
         FileError: the file cannot be read.
         GeometryError: the solid, or its skeleton, cannot be computed; says where and what was
             tried.
     """
+    if not number(tolerance, "tolerance") > 0 or tolerance > COARSEST:
+        raise InputError(f"tolerance must be above 0 and at most {COARSEST:g}, got {tolerance!r}")
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
     failures: list[str] = []

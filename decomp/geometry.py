@@ -61,17 +61,42 @@ class Geometry:
         return SiteIndex(found.form, found.regions, lambda: found.outside, found.face_at)
 
     def contains(self, points: ArrayLike) -> Bools:
-        """Whether points (n, 3) lie in some region: (n,) bool."""
+        """Whether points (n, 3) lie in some region: (n,) bool.
+
+        A point within rounding of a boundary goes to either side.
+
+        Raises:
+            InputError: these are no finite numbers, three for each point.
+        """
         return self.index.contains(points)
 
     def region_of(self, points: ArrayLike) -> NDArray[np.int32]:
-        """The index (n,) of the region that holds each point (n, 3), -1 outside all."""
+        """The index (n,) of the region that holds each point (n, 3), -1 outside all.
+
+        A point within rounding of a boundary goes to either side.
+
+        Raises:
+            InputError: these are no finite numbers, three for each point.
+        """
         return self.index.region_of(points)
 
     def nearest(self, points: ArrayLike) -> Nearest:
-        """The nearest site of the boundary of each point's own region, or of the outside."""
+        """The nearest site of the boundary of each point's own region, or of the outside.
+
+        Args:
+            points: (n, 3), in a region or outside.
+
+        Raises:
+            InputError: these are no finite numbers, three for each point.
+        """
         return self.index.nearest(points)
 
     def distance(self, points: ArrayLike) -> Array:
-        """Signed distance (n,) to the boundary of each point's region, negative inside."""
+        """Signed distance (n,) of points (n, 3) to the boundary of their region, negative in one.
+
+        Outside all regions it is the distance to the nearest boundary, above 0.
+
+        Raises:
+            InputError: these are no finite numbers, three for each point.
+        """
         return self.index.distance(points)

@@ -26,7 +26,7 @@ from decomp.tetra.preparation import Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
 from decomp.tetra.tetrahedra import Filled, filled
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array, Ints, positive
 
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may compute, in all and for each expected tetrahedron."""
@@ -80,11 +80,13 @@ def mesh(
     ):
         if value not in allowed:
             raise InputError(f"{what} must be one of {allowed}, got {value!r}")
+    if timeout is not None:
+        positive(timeout, "timeout")
     asked = checked_fields(fields)
     wanted = Wanted(size, layers, elements_per_circle)
     given = prepared(geometry, wanted, cells == "face", _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
-    limit = TimeLimit(timeout) if timeout else TimeLimit.of_work(work)
+    limit = TimeLimit(timeout) if timeout is not None else TimeLimit.of_work(work)
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
     if order == 2:
         tell("curving", FILLED)

@@ -7,7 +7,8 @@ import os
 from pathlib import Path
 
 PAGE = Path(__file__).parent / "commands.md"
-WIDTH = 96
+WIDTH = 84
+"""Columns of text that a page of the site shows beside its lists of contents."""
 
 
 def reference() -> str:

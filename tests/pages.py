@@ -1,12 +1,13 @@
 """The pages of the documentation, executed block by block in the order in which they stand.
 
-Blocks are told by what follows their opening fence:
+Blocks are told by what follows their opening fence, a language and perhaps `title="NAME"`:
 
-- `text NAME`: a file of that name;
-- `text` that begins with `$ `: commands with what they print, in which `...` stands for anything;
+- with a title, but for `py`: a file of that name;
+- `console`: commands after `$ `, with what they print, in which `...` stands for anything;
 - `sh`: commands; those of `decomp` are run, others (`pip install`...) must be known;
 - `python`: run, all of a page in one namespace; what `print(...)  # ...` prints is in its comment;
-- `py`, `console` and others: not executed, as what they need is not here; the page says so.
+- `py`, `bash`: not executed here, as what they need may be missing; the page says so;
+- `text` without a title: nothing that could be executed.
 """
 
 from __future__ import annotations
@@ -19,17 +20,26 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 
+from markdown_it import MarkdownIt
+
 from decomp.cli.main import main
 
 ROOT = Path(__file__).parent.parent
-BLOCK = re.compile(r"^```(\w*) ?(\S*)\n(.*?)^```$", flags=re.DOTALL | re.MULTILINE)
+FENCE = re.compile(r"(\w+)(?: title=\"([^\"]+)\")?")
+LANGUAGES = ("console", "sh", "python", "py", "bash", "text")
 NOT_RUN = ("pip install", "python3 -m venv", ". .venv/bin/activate")
 
 
 def blocks(page: str) -> Iterator[tuple[str, str, str]]:
-    """Language, file name and text of each block."""
-    for match in BLOCK.finditer((ROOT / page).read_text()):
-        yield match[1], match[2], match[3]
+    """Language, title (empty for none) and text of each block."""
+    for token in MarkdownIt().parse((ROOT / page).read_text(encoding="utf-8")):
+        if token.type == "fence":
+            fence = FENCE.fullmatch(token.info)
+            known = fence is not None and (fence[2] or fence[1] in LANGUAGES)
+            assert fence and known, f"{page}: a fence with {token.info!r}; see tests/pages.py"
+            transcript = token.content.startswith("$ ")
+            assert transcript == (fence[1] == "console"), f"{page}: `$ ` makes a `console` block"
+            yield fence[1], fence[2] or "", token.content
 
 
 def run(page: str, place: Path) -> int:
@@ -37,9 +47,9 @@ def run(page: str, place: Path) -> int:
     names: dict[str, Any] = {"__name__": "page"}
     count = 0
     for language, name, text in blocks(page):
-        if language == "text" and name:
+        if name and language != "py":
             (place / name).write_text(text)
-        elif language == "text" and text.startswith("$ "):
+        elif language == "console":
             _transcript(text)
         elif language == "sh":
             for line in text.splitlines():

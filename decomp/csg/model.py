@@ -60,9 +60,21 @@ def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "mode
     """Make a model from one solid, from named solids, or from regions.
 
     A single solid becomes the region `solid`.
+
+    Raises:
+        InputError: these are no solids, a name cannot be one, or there is no region.
     """
     if isinstance(solids, Solid):
         return Model((Region("solid", solids),), name)
     if isinstance(solids, dict):
-        return Model(tuple(Region(key, solid) for key, solid in solids.items()), name)
-    return Model(tuple(solids), name)
+        regions = tuple(Region(key, solid) for key, solid in solids.items())
+    elif isinstance(solids, Sequence) and all(isinstance(region, Region) for region in solids):
+        regions = tuple(solids)
+    else:
+        raise InputError(
+            f"a model is made of a solid, of named solids or of regions, not {solids!r}"
+        )
+    for region in regions:
+        if not isinstance(region.name, str) or not isinstance(region.solid, Solid):
+            raise InputError(f"{region.name!r}: {region.solid!r} is no named solid")
+    return Model(regions, name)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from math import prod
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Program:
             (..., n_roots), whether it is in each region.
         """
         shape = inside.shape[:-1]
-        columns = inside.reshape(-1, inside.shape[-1]).T
+        columns = inside.reshape(prod(shape), inside.shape[-1]).T
         values = np.empty((len(self.literal), columns.shape[1]), dtype=np.bool_)
         values[0] = True
         literals = self.literal >= 0

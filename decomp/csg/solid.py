@@ -6,7 +6,7 @@ is a loop, never a recursion, so that trees may be nested as deep as memory allo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -29,7 +29,11 @@ def no_options() -> Options:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solid:
-    """A set of points given by primitives, Boolean operations and similarities."""
+    """A set of points given by primitives, Boolean operations and similarities.
+
+    Solids do not change: methods give new ones. `a | b`, `a & b`, `a - b` and `~a` are union,
+    intersection, difference and complement.
+    """
 
     def __or__(self, other: Solid) -> Union:
         return Union((self, _solid(other)))
@@ -46,35 +50,63 @@ class Solid:
     def named(self, name: str, **options: Any) -> Labelled:
         """Put `name` before the names of all faces inside; options go to faces without their own.
 
+        Args:
+            name: as in `name.hole.side`.
+            options: such as `bc=3`, the boundary condition's number, and `maxh=0.1`, the largest
+                edge length, as Netgen's flags.
+
         Raises:
             InputError: the name is empty or holds a character that face names use.
         """
         return Labelled(self, checked_name(name), MappingProxyType(dict(options)))
 
     def translate(self, offset: ArrayLike) -> Transformed:
-        """Move by `offset`."""
+        """Move by `offset`, (3,).
+
+        Raises:
+            InputError: it is not three finite numbers.
+        """
         return Transformed(self, similarity.translation(offset))
 
     def rotate(self, axis: ArrayLike, degrees: float, centre: ArrayLike = (0, 0, 0)) -> Transformed:
-        """Turn by `degrees` about the axis through `centre` (right-hand rule)."""
+        """Turn by `degrees` about the axis through `centre` (right-hand rule).
+
+        Raises:
+            InputError: the axis is zero, or numbers are not finite.
+        """
         return Transformed(self, similarity.rotation(axis, degrees, centre))
 
     def mirror(self, normal: ArrayLike, point: ArrayLike = (0, 0, 0)) -> Transformed:
-        """Reflect in the plane through `point` with the given normal."""
+        """Reflect in the plane through `point` with the given normal, of any length.
+
+        Raises:
+            InputError: the normal is zero, or numbers are not finite.
+        """
         return Transformed(self, similarity.reflection(normal, point))
 
     def scale(self, factor: float, centre: ArrayLike = (0, 0, 0)) -> Transformed:
-        """Scale uniformly by `factor` above zero, keeping `centre` in place."""
+        """Scale uniformly by `factor` above zero, keeping `centre` in place.
+
+        Raises:
+            InputError: the factor is not above zero, or numbers are not finite.
+        """
         return Transformed(self, similarity.scaling(factor, centre))
 
     def transform(self, matrix: ArrayLike) -> Transformed:
-        """Apply a homogeneous matrix (4, 4), which must be a similarity."""
+        """Apply a homogeneous matrix (4, 4) or its first rows (3, 4), which must be a similarity.
+
+        Raises:
+            InputError: it is another kind of matrix, such as an uneven scale or a shear.
+        """
         return Transformed(self, similarity.from_matrix(matrix))
 
     def linear_copies(self, offset: ArrayLike, count: int) -> Copies:
         """The union of `count` copies (this one included), each moved on by `offset`.
 
-        Face names get the copy's number: `hole#2.side`.
+        Face names get the copy's number, from 1 for the one in its own place: `hole#2.side`.
+
+        Raises:
+            InputError: the count is no whole number above zero, or the offset not finite.
         """
         step = vector(offset, "copy offset")
         moves = [similarity.translation(k * step) for k in range(checked_count(count))]
@@ -85,7 +117,12 @@ class Solid:
     ) -> Copies:
         """The union of `count` copies (this one included) spread evenly over `degrees`.
 
-        A full turn is shared out among `count` steps; a part of a turn has a copy at both ends.
+        A full turn (360 or -360) is shared out among `count` steps; any other angle has a copy at
+        both ends. Turns follow the right-hand rule about the axis through `centre`; face names get
+        the copy's number as in `linear_copies`.
+
+        Raises:
+            InputError: the count is no whole number above zero, or the axis is zero.
         """
         n = checked_count(count)
         total = number(degrees, "copy angle")
@@ -182,13 +219,21 @@ class Labelled(Solid):
 
 
 def union(parts: Sequence[Solid]) -> Union:
-    """The union of any number of solids."""
-    return Union(tuple(_solid(p) for p in parts))
+    """The union of a sequence of solids, of any length; the empty set if there is none.
+
+    Raises:
+        InputError: this is no sequence of solids.
+    """
+    return Union(_solids(parts, "union"))
 
 
 def intersection(parts: Sequence[Solid]) -> Intersection:
-    """The intersection of any number of solids."""
-    return Intersection(tuple(_solid(p) for p in parts))
+    """The intersection of a sequence of solids, of any length; all of space if there is none.
+
+    Raises:
+        InputError: this is no sequence of solids.
+    """
+    return Intersection(_solids(parts, "intersection"))
 
 
 def walk(roots: Sequence[Solid]) -> Iterator[Solid]:
@@ -223,6 +268,12 @@ def checked_count(count: int) -> int:
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
         raise InputError(f"number of copies must be a whole number above zero, got {count!r}")
     return int(count)
+
+
+def _solids(parts: Sequence[Solid], what: str) -> tuple[Solid, ...]:
+    if isinstance(parts, Solid) or not isinstance(parts, Iterable):
+        raise InputError(f"{what} takes a list of solids, got {parts!r}")
+    return tuple(_solid(part) for part in parts)
 
 
 def _solid(value: Solid) -> Solid:

@@ -358,7 +358,7 @@ PRIMITIVES: dict[str, Callable[..., Primitive]] = {
     "sphere": lambda centre, radius: Sphere(centre, radius[0]),
     "cylinder": lambda a, b, radius: InfiniteCylinder(a, np.subtract(b, a), radius[0]),
     "cone": _cone,
-    "orthobrick": Block.between,
+    "orthobrick": lambda a, b: Block.between(np.minimum(a, b), np.maximum(a, b)),
     "torus": lambda centre, axis, major, minor: Torus(centre, axis, major[0], minor[0]),
 }
 

@@ -31,7 +31,7 @@ class Nearest:
     """The nearest sites of n points.
 
     Args:
-        site: numbers (n,), indices into `SiteIndex.sites`.
+        site: numbers (n,), indices into `Geometry.sites`.
         distance: to the boundary (n,), never negative.
         foot: the nearest boundary points (n, 3).
         region: the region (n,) that holds each point, -1 outside.

@@ -17,6 +17,7 @@ from decomp.meshing import mesh
 from decomp.tetra import memory
 from decomp.tetra.expected import least_tets
 from decomp.tetra.sizes import Wanted, region_sizes
+from tests import pages
 from tests.mesh_output.shapes import bar, cube
 
 PAGE = (Path(__file__).parent.parent.parent / "docs" / "limits.md").read_text()
@@ -45,7 +46,7 @@ FREE = 16 * 10**9
 
 def said() -> list[tuple[str, str]]:
     """The page's commands and what they answer."""
-    blocks = re.findall(r"```text\n(.*?)```", PAGE, flags=re.DOTALL)
+    blocks = [text for language, _, text in pages.blocks("docs/limits.md") if language == "console"]
     pairs = [re.findall(r"\$ (decomp .*)\n(decomp: error: .*)\n", block) for block in blocks]
     assert all(
         2 * len(found) == block.count("\n") for found, block in zip(pairs, blocks, strict=True)

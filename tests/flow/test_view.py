@@ -1,12 +1,8 @@
-"""`decomp view`: the page in headless Chromium, the image, what cannot be viewed.
-
-The browser's tests run where Playwright and a Chromium (`chromium` on the path) are installed.
-"""
+"""`decomp view`: the page in headless Chromium, the image, what cannot be viewed."""
 
 from __future__ import annotations
 
 import io
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,10 +15,9 @@ from decomp.output import write
 from decomp.view import page
 from decomp.view.colours import CATEGORIES, rgb
 from decomp.view.scene import scene_of
+from tests import browser as browsers
 from tests.mesh_output.shapes import bar
 from tests.skeleton_fixtures import block
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
 def test_parts_of_each_kind_of_file(tmp_path: Path) -> None:
@@ -133,20 +128,14 @@ def test_names_cannot_break_out_of_the_page(tmp_path: Path) -> None:
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
-    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    if CHROMIUM is None:
-        pytest.skip("no chromium on the path")
-    with sync_api.sync_playwright() as playwright:
-        flags = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader"]
-        yield playwright.chromium.launch(executable_path=CHROMIUM, args=flags)
+    with browsers.launched("--use-gl=angle", "--use-angle=swiftshader") as chromium:
+        yield chromium
 
 
 def opened(browser: Any, path: Path) -> tuple[Any, list[str]]:
     """A page without network, and what its console complains of."""
     view = browser.new_page(viewport={"width": 1280, "height": 800}, offline=True)
-    loud: list[str] = []
-    view.on("console", lambda m: loud.append(m.text) if m.type == "error" else None)
-    view.on("pageerror", lambda error: loud.append(str(error)))
+    loud = browsers.complaints(view)
     view.goto(path.as_uri())
     view.wait_for_function("window.decompView !== undefined", timeout=30000)
     return view, loud

@@ -67,6 +67,14 @@ def test_primitives() -> None:
     assert isinstance(primitive("cone (0, 0, 0; 1; 0, 0, 2; 1)"), InfiniteCylinder)
 
 
+@pytest.mark.parametrize("corners", ["1, 2, 3; 4, 6, 8", "4, 6, 8; 1, 2, 3", "4, 2, 8; 1, 6, 3"])
+def test_corners_of_bricks_come_in_any_order(corners: str) -> None:
+    brick = primitive(f"orthobrick ({corners})")
+    assert isinstance(brick, Block)
+    assert same(brick.corner, 1, 2, 3)
+    assert same(brick.size, 3, 4, 5)
+
+
 def test_and_binds_tighter_than_or() -> None:
     balls = " ".join(["sphere (0,0,0; 1) or", "sphere (0,0,0; 2) and sphere (0,0,0; 3)"])
     tree = solid(balls + " or not sphere (0,0,0; 4)")
@@ -256,7 +264,7 @@ WRONG = {
     ),
     "zero normal": ("algebraic3d\nsolid a = plane (0,0,0; 0,0,0);", 2, 11, "zero vector"),
     "zero axis": ("algebraic3d\nsolid a = cylinder (1,0,0; 1,0,0; 1);", 2, 11, "zero vector"),
-    "flat brick": ("algebraic3d\nsolid a = orthobrick (0,0,0; 1,1,0);", 2, 11, "must be positive"),
+    "flat brick": ("algebraic3d\nsolid a = orthobrick (0,0,0; 1,1,0);", 2, 11, "is not along z"),
     "spindle": ("algebraic3d\nsolid a = torus (0,0,0; 0,0,1; 1; 2);", 2, 11, "spindle torus"),
     "overflow": ("algebraic3d\nsolid a = sphere (0,0,1e999; 1);", 2, 11, "must be finite"),
     "nan": ("algebraic3d\nsolid a = sphere (0,0,nan; 1);", 2, 22, "',' does not belong here"),

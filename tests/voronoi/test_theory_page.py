@@ -1,9 +1,7 @@
-"""The page `docs/theory.md`: its example runs, and the tests it names exist."""
+"""The page `docs/theory.md`: the tests that it names exist."""
 
 from __future__ import annotations
 
-import contextlib
-import io
 import re
 from pathlib import Path
 
@@ -22,12 +20,3 @@ def test_named_tests_exist() -> None:
         assert test in defined
         if file:
             assert f"def {test}(" in (HERE / file).read_text(encoding="utf-8")
-
-
-def test_example() -> None:
-    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.S)
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        exec(code, {})
-    expected = [line[2:] for line in code.splitlines() if line.startswith("# ")]
-    assert printed.getvalue().splitlines() == expected
