@@ -5,9 +5,12 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
+from decomp.cli.ending import EndedError, endings
 from decomp.errors import DecompError
+from decomp.tetra.workplace import sweep
 
 EXAMPLES = """\
 examples:
@@ -49,7 +52,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: without the program's name; by default those of the process.
 
     Returns:
-        0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted.
+        0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted, 128 + n when
+        ended by signal n.
     """
     options = parser().parse_args(arguments)
     if options.version:
@@ -61,13 +65,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser().print_help()
         return 2
     try:
-        options.run(options)
+        with endings():
+            sweep()
+            options.run(options)
     except DecompError as error:
         print(f"decomp: error: {error}", file=sys.stderr)
         return error.exit_code
     except KeyboardInterrupt:
         print("decomp: interrupted", file=sys.stderr)
         return INTERRUPTED
+    except EndedError as end:
+        # a terminal that has hung up cannot be told
+        with suppress(OSError):
+            print(f"decomp: ended by {end}", file=sys.stderr)
+        return end.exit_code
     except BrokenPipeError:
         # the reader of our output has gone (as `head` does): nothing is left to say
         sys.stderr.close()

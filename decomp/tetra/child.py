@@ -12,7 +12,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,6 +21,7 @@ import numpy as np
 
 from decomp.errors import DecompError, GeometryError, InputError
 from decomp.tetra.worker import MISSING, SPENT
+from decomp.tetra.workplace import sweep, workplace
 from decomp.vectors import Array, Ints
 
 WORKER = Path(__file__).with_name("worker.py")
@@ -228,23 +228,28 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
         MeshingError: it crashed, hung, or gave nothing.
         InputError: pytetwild is missing.
     """
-    with tempfile.TemporaryDirectory(prefix="decomp-") as directory:
-        source, target = Path(directory) / "in.npz", Path(directory) / "out.npz"
+    sweep()
+    with workplace() as directory:
+        source, target = directory / "in.npz", directory / "out.npz"
         np.savez(source, **arrays)  # type: ignore[arg-type]
         process = subprocess.Popen(
             [sys.executable, "-P", str(WORKER), str(source), str(target), str(limit.busy)],
             cwd=directory,
-            stdin=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             start_new_session=True,
         )
+        # it ends when this pipe does; `communicate` would close it at once
+        lifeline, process.stdin = process.stdin, None
         try:
             _, errors = process.communicate(timeout=limit.clock)
         except subprocess.TimeoutExpired:
             raise MeshingError(f"did not end within {limit.clock:g} s") from None
         finally:
             _kill(process)
+            if lifeline is not None:
+                lifeline.close()
         if process.returncode == MISSING:
             raise InputError(
                 f"{errors.decode(errors='replace').strip()}: pip install pytetwild==0.4.2"
