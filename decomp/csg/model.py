@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-from decomp.csg.solid import Options, Solid, checked_name, no_options
+from decomp.csg.options import OF_REGIONS, Options, checked
+from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A named solid with the options its file gave it (`maxh`, `bc`, `col`, `material`...)."""
+    """A named solid with options, such as `maxh`, the largest edge length wanted in it.
+
+    Raises:
+        InputError: an option is unknown, or its value wrong (`decomp.csg.options.OF_REGIONS`).
+    """
 
     name: str
     solid: Solid
-    options: Options = field(default_factory=no_options)
+    options: Mapping[str, Any] = field(default_factory=Options)
+
+    def __post_init__(self) -> None:
+        where = f"region {self.name!r}"
+        object.__setattr__(self, "options", checked(self.options, OF_REGIONS, where))
 
 
 @dataclass(frozen=True)

@@ -8,23 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from decomp import similarity
+from decomp.csg.options import OF_FACES, Options, checked
 from decomp.errors import InputError
 from decomp.similarity import Similarity
 from decomp.vectors import direction, number, vector
-
-Options = Mapping[str, Any]
-
-
-def no_options() -> Options:
-    """An empty, read-only set of options."""
-    return MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -46,10 +39,14 @@ class Solid:
     def named(self, name: str, **options: Any) -> Labelled:
         """Put `name` before the names of all faces inside; options go to faces without their own.
 
+        Options are `maxh`, the largest edge length wanted, in model units; `bc`, the number of a
+        boundary condition; `bcname`, its name.
+
         Raises:
-            InputError: the name is empty or holds a character that face names use.
+            InputError: the name is empty or holds a character that face names use; there is no
+                such option, or its value is none that it may have.
         """
-        return Labelled(self, checked_name(name), MappingProxyType(dict(options)))
+        return Labelled(self, checked_name(name), options)
 
     def translate(self, offset: ArrayLike) -> Transformed:
         """Move by `offset`."""
@@ -171,11 +168,18 @@ class Labelled(Solid):
     """The same points as `part`, with a name before its faces' names and options for them.
 
     Where labels are nested, an inner option wins over an outer one of the same key.
+
+    Raises:
+        InputError: an option is unknown, or its value wrong (`decomp.csg.options.OF_FACES`).
     """
 
     part: Solid
     name: str | None
-    options: Options = field(default_factory=no_options)
+    options: Mapping[str, Any] = field(default_factory=Options)
+
+    def __post_init__(self) -> None:
+        where = "a solid" if self.name is None else f"solid {self.name!r}"
+        object.__setattr__(self, "options", checked(self.options, OF_FACES, where))
 
     def children(self) -> tuple[Solid, ...]:
         return (self.part,)

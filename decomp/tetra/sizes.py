@@ -16,7 +16,6 @@ from decomp.carriers import Carrier
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.features import thickness
-from decomp.tetra.groups import option_number
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
 from decomp.vectors import Array, cross, norm
@@ -91,7 +90,7 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
     """The largest edge length in each region: the user's, the file's `maxh`, or a default.
 
     Raises:
-        InputError: a length is not positive, or the model fits into it.
+        InputError: the model fits into the length asked for.
     """
     if wanted.size is not None and wanted.size >= geometry.diagonal:
         raise InputError(
@@ -102,9 +101,7 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
     for boundary, region in zip(geometry.regions, geometry.model.regions, strict=True):
         default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)
         length = default if wanted.size is None else wanted.size
-        given = option_number(region.options, "maxh")
-        if given is not None and given <= 0:
-            raise InputError(f"maxh of region {region.name} must be positive, got {given}")
+        given = region.options.get("maxh")
         found.append(length if given is None else min(length, given))
     return np.array(found)
 
@@ -160,8 +157,8 @@ def _curved(
         share = (area / np.bincount(which, minlength=len(area)))[which]
         lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
         change, total = change + lost, total + abs(lost)
-        limit = option_number(face.options, "maxh")
-        if limit is not None and limit > 0:
+        limit = face.options.get("maxh")
+        if limit is not None:
             own = np.minimum(own, limit)
         found.append((some, own, bend))
     content = abs(region.boundary.volume)

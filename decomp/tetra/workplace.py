@@ -1,8 +1,8 @@
 """Temporary directories in which child processes work, and the removal of those left behind.
 
 Who makes one holds a lock on it, which the system lets go when its holder ends in whatever way. So
-a directory whose lock can be had is nobody's: neither does a process of the same number hide it, nor
-is one removed whose owner lives, be it in another container.
+a directory whose lock can be had is nobody's: no process of the same number hides it, and none is
+removed whose owner lives, be it in another container.
 """
 
 from __future__ import annotations

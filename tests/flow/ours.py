@@ -21,11 +21,18 @@ def processes(place: Path) -> list[int]:
     return found
 
 
-def all_gone(place: Path, seconds: float) -> bool:
-    """Whether all of them have ended before so many seconds have passed."""
+def survivors(place: Path, seconds: float) -> list[str]:
+    """The command lines of those that have not ended before so many seconds have passed."""
     end = time.monotonic() + seconds
-    while processes(place):
+    while found := processes(place):
         if time.monotonic() > end:
-            return False
+            return [_command(each) for each in found]
         time.sleep(0.02)
-    return True
+    return []
+
+
+def _command(process: int) -> str:
+    try:
+        return Path(f"/proc/{process}/cmdline").read_text().replace("\0", " ")
+    except OSError:
+        return "ended just now"

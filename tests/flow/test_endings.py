@@ -1,4 +1,4 @@
-"""However a command ends, no process of it stays, and no directory longer than to the next start."""
+"""However a command ends, none of its processes stays, nor a directory after the next start."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.flow.ours import all_gone, processes
+from tests.flow.ours import processes, survivors
 
 pytestmark = pytest.mark.skipif(
     not Path("/proc/self/environ").exists(), reason="processes are found in /proc"
@@ -100,7 +100,7 @@ def killed(
     time.sleep(after)
     assert process.poll() is None
     process.send_signal(how)
-    assert all_gone(place / "tmp", PATIENCE), f"{how.name} after {after:.3f} s"
+    assert survivors(place / "tmp", PATIENCE) == [], f"{how.name} after {after:.3f} s"
     _, errors = process.communicate(timeout=5)
     # before Python runs the command, the signal itself ends it
     assert process.returncode in (-how, 128 + how), errors
@@ -118,7 +118,7 @@ def test_signals_are_told_of(how: signal.Signals, words: Sequence[str], place: P
     _, errors = process.communicate(timeout=5)
     assert process.returncode == 128 + how
     assert errors == f"decomp: ended by {how.name}\n"
-    assert all_gone(place / "tmp", PATIENCE)
+    assert survivors(place / "tmp", PATIENCE) == []
     # the directory is removed by the command itself
     assert left(place) == []
 
