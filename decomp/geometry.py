@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,7 +58,10 @@ class Geometry:
         from decomp.sites import SiteIndex
 
         found = self.boundaries
-        return SiteIndex(found.form, found.regions, lambda: found.outside, found.face_at)
+        # no lambda, as a geometry may be pickled
+        return SiteIndex(
+            found.form, found.regions, partial(getattr, found, "outside"), found.face_at
+        )
 
     def contains(self, points: ArrayLike) -> Bools:
         """Whether points (n, 3) lie in some region: (n,) bool."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from decomp.csg.options import OF_REGIONS, Options, checked
+from decomp.csg.packing import Packed, packed, unpacked
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
 
@@ -61,6 +62,25 @@ class Model:
         name, count = counts.most_common(1)[0]
         if count > 1:
             raise InputError(f"{count} regions are named {name!r}: give each its own name")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled and copied so that regions go on sharing solids."""
+        rest = tuple((region.name, region.options) for region in self.regions)
+        solids = packed([region.solid for region in self.regions])
+        return _unpickled, (solids, rest, self.name, self.ignored)
+
+
+def _unpickled(
+    solids: Packed,
+    rest: Sequence[tuple[str, Mapping[str, Any]]],
+    name: str,
+    ignored: tuple[Ignored, ...],
+) -> Model:
+    regions = (
+        Region(each, solid, options)
+        for solid, (each, options) in zip(unpacked(solids), rest, strict=True)
+    )
+    return Model(tuple(regions), name, ignored)
 
 
 def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "model") -> Model:

@@ -95,6 +95,17 @@ class Solid:
         """The solids that this node is made of."""
         return ()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled and copied as a flat list, as trees may be deep."""
+        from decomp.csg.packing import packed, unpacked_one
+
+        return unpacked_one, (packed((self,)),)
+
+    def __copy__(self) -> Solid:
+        result = object.__new__(type(self))
+        vars(result).update(vars(self))
+        return result
+
     def __repr__(self) -> str:
         inside = len(self.children())
         return f"<{type(self).__name__} of {inside}>" if inside else f"<{type(self).__name__}>"
