@@ -27,6 +27,7 @@ class Geometry:
         source: a model, a solid, a dict of named solids, or the path of a model file.
 
     Raises:
+        InputError: the source is none of these.
         FileError: the file cannot be read; its subclasses say where.
         GeometryError: a region is empty, unbounded, overlaps another or touches itself.
     """

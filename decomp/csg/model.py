@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,7 +18,8 @@ class Region:
     """A named solid with options, such as `maxh`, the largest edge length wanted in it.
 
     Raises:
-        InputError: an option is unknown, or its value wrong (`decomp.csg.options.OF_REGIONS`).
+        InputError: it is of no solid; an option is unknown, or its value wrong
+            (`decomp.csg.options.OF_REGIONS`).
     """
 
     name: str
@@ -27,6 +28,8 @@ class Region:
 
     def __post_init__(self) -> None:
         where = f"region {self.name!r}"
+        if not isinstance(self.solid, Solid):
+            raise InputError(f"{where} must be a solid, got {self.solid!r}")
         object.__setattr__(self, "options", checked(self.options, OF_REGIONS, where))
 
 
@@ -48,7 +51,7 @@ class Model:
         ignored: statements of the file that were not used.
 
     Raises:
-        InputError: no region, or two of the same name.
+        InputError: no region, what is none, or two of the same name.
     """
 
     regions: tuple[Region, ...]
@@ -58,6 +61,9 @@ class Model:
     def __post_init__(self) -> None:
         if not self.regions:
             raise InputError(f"model {self.name!r} has no region: define at least one solid")
+        for region in self.regions:
+            if not isinstance(region, Region):
+                raise InputError(f"{region!r} is no region; decomp.Region(name, solid) makes one")
         counts = Counter(checked_name(region.name) for region in self.regions)
         name, count = counts.most_common(1)[0]
         if count > 1:
@@ -87,9 +93,17 @@ def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "mode
     """Make a model from one solid, from named solids, or from regions.
 
     A single solid becomes the region `solid`.
+
+    Raises:
+        InputError: it is none of these.
     """
     if isinstance(solids, Solid):
         return Model((Region("solid", solids),), name)
     if isinstance(solids, dict):
         return Model(tuple(Region(key, solid) for key, solid in solids.items()), name)
+    if not isinstance(solids, Iterable) or isinstance(solids, (str, bytes)):
+        raise InputError(
+            "a model is made of a solid, of solids by name, or of regions in a list, "
+            f"got {solids!r}"
+        )
     return Model(tuple(solids), name)

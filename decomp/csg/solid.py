@@ -6,7 +6,7 @@ is a loop, never a recursion, so that trees may be nested as deep as memory allo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -197,13 +197,21 @@ class Labelled(Solid):
 
 
 def union(parts: Sequence[Solid]) -> Union:
-    """The union of any number of solids."""
-    return Union(tuple(_solid(p) for p in parts))
+    """The union of any number of solids.
+
+    Raises:
+        InputError: they are no solids.
+    """
+    return Union(_solids(parts))
 
 
 def intersection(parts: Sequence[Solid]) -> Intersection:
-    """The intersection of any number of solids."""
-    return Intersection(tuple(_solid(p) for p in parts))
+    """The intersection of any number of solids.
+
+    Raises:
+        InputError: they are no solids.
+    """
+    return Intersection(_solids(parts))
 
 
 def walk(roots: Sequence[Solid]) -> Iterator[Solid]:
@@ -225,7 +233,11 @@ RESERVED = ".#/"
 
 def checked_name(name: str) -> str:
     """Return `name`, or raise InputError if it is empty or holds `. # /`, quotes or blanks."""
-    if not name or any(c in RESERVED or c.isspace() or c == '"' for c in name):
+    if (
+        not isinstance(name, str)
+        or not name
+        or any(c in RESERVED or c.isspace() or c == '"' for c in name)
+    ):
         raise InputError(
             f"{name!r} cannot be a name: use at least one character, no blanks, quotes or any of "
             + " ".join(RESERVED)
@@ -238,6 +250,12 @@ def checked_count(count: int) -> int:
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
         raise InputError(f"number of copies must be a whole number above zero, got {count!r}")
     return int(count)
+
+
+def _solids(values: Sequence[Solid]) -> tuple[Solid, ...]:
+    if not isinstance(values, Iterable):
+        raise InputError(f"solids must be given in a list, got {values!r}")
+    return tuple(_solid(value) for value in values)
 
 
 def _solid(value: Solid) -> Solid:

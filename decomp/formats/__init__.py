@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
+from decomp.arguments import path_of
 from decomp.errors import FileError, InputError, ParseError
 from decomp.formats.foreign import advice
 
@@ -33,7 +34,7 @@ def load(path: str | Path) -> Model:
         ParseError: its text is wrong.
         UnsupportedError: it uses what lies outside the five primitives and similarities.
     """
-    file = Path(path)
+    file = path_of(path, "the model's file")
     data = _bytes(file)
     suffix = file.suffix.lower().removeprefix(".")
     form = next((known for known in FORMATS if known == suffix), None)
@@ -79,7 +80,7 @@ def save(source: Model | Solid | dict[str, Solid], path: str | Path) -> None:
     from decomp.formats import native
 
     text = native.dumps(source if isinstance(source, Model) else model(source))
-    target = Path(os.path.realpath(path))
+    target = Path(os.path.realpath(path_of(path, "the file to write")))
     if target.is_dir():
         raise FileError("this is a directory; give the name of a file to write", path)
     temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")

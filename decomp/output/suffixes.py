@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from decomp.arguments import path_of
 from decomp.errors import InputError
 
 
@@ -19,7 +20,7 @@ def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
     Raises:
         InputError: it is none of `suffixes`.
     """
-    suffix = Path(path).suffix.lower()
+    suffix = path_of(path, "the file to write").suffix.lower()
     if suffix not in suffixes:
         said = f"{suffix!r} is unknown" if suffix else "there is none"
         raise InputError(f"{path}: {said} as a suffix for {what}; use {', '.join(suffixes)}")

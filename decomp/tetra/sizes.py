@@ -12,13 +12,14 @@ from math import pi, sqrt
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.arguments import whole
 from decomp.carriers import Carrier
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.features import thickness
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
-from decomp.vectors import Array, cross, norm
+from decomp.vectors import Array, cross, norm, number, positive
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
@@ -50,7 +51,7 @@ class Wanted:
         per_circle: edges around a full circle.
 
     Raises:
-        InputError: one is out of its range.
+        InputError: one is no number, or out of its range.
     """
 
     size: float | None = None
@@ -58,12 +59,18 @@ class Wanted:
     per_circle: float | None = None
 
     def __post_init__(self) -> None:
-        if self.size is not None and not 0 < self.size < float("inf"):
-            raise InputError(f"size must be a positive length, got {self.size!r}")
-        if self.layers is not None and not 1 <= self.layers <= 100:
-            raise InputError(f"layers must be from 1 to 100, got {self.layers!r}")
-        if self.per_circle is not None and not 3 <= self.per_circle <= 10000:
-            raise InputError(f"elements per circle must be from 3, got {self.per_circle!r}")
+        if self.size is not None:
+            object.__setattr__(self, "size", positive(self.size, "size"))
+        if self.layers is not None:
+            layers = whole(self.layers, "layers")
+            if layers > 100:
+                raise InputError(f"layers must be from 1 to 100, got {layers}")
+            object.__setattr__(self, "layers", layers)
+        if self.per_circle is not None:
+            count = number(self.per_circle, "elements per circle")
+            if not 3 <= count <= 10000:
+                raise InputError(f"elements per circle must be from 3 to 10000, got {count:g}")
+            object.__setattr__(self, "per_circle", count)
 
 
 @dataclass(frozen=True, eq=False)

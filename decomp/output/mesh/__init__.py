@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from decomp.arguments import switch
 from decomp.errors import InputError
 from decomp.output.suffixes import known_suffix
 
@@ -66,5 +67,6 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
     suffix = suffix_of(path)
     if version not in VERSIONS:
         raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(VERSIONS)}")
+    switch(text, "text")
     check_target(path)
     write_whole(path, encoded(mesh, suffix, text=text, version=version))
