@@ -101,9 +101,9 @@ def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "mode
         return Model((Region("solid", solids),), name)
     if isinstance(solids, dict):
         return Model(tuple(Region(key, solid) for key, solid in solids.items()), name)
-    if not isinstance(solids, Iterable) or isinstance(solids, (str, bytes)):
+    given: object = solids
+    if not isinstance(given, Iterable) or isinstance(given, (str, bytes)):
         raise InputError(
-            "a model is made of a solid, of solids by name, or of regions in a list, "
-            f"got {solids!r}"
+            f"a model is made of a solid, of solids by name, or of regions in a list, got {given!r}"
         )
     return Model(tuple(solids), name)

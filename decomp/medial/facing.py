@@ -19,7 +19,8 @@ from decomp.errors import InputError
 from decomp.medial.facing_sheets import facing_sheets
 from decomp.medial.level_cut import LevelCut
 from decomp.medial.result import Skeleton
-from decomp.vectors import Array, Ints, cross, norm, number
+from decomp.vectors import Array, Ints, cross, norm
+from decomp.vectors import number as finite
 
 FACING = 120.0
 """The least angle between feet, in degrees, by default."""
@@ -89,7 +90,7 @@ def mid_surface(skeleton: Skeleton, facing: float = FACING) -> MidSurface:
     """
     if not isinstance(skeleton, Skeleton):
         raise InputError(f"a mid-surface is that of a skeleton, got {skeleton!r}")
-    facing = number(facing, "facing")
+    facing = finite(facing, "facing")
     if not 0 <= facing < 180:
         raise InputError(f"facing must be an angle from 0 to less than 180 degrees, got {facing:g}")
     mesh = skeleton.complex

@@ -19,7 +19,8 @@ from decomp.geometry import Geometry
 from decomp.tetra.features import thickness
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
-from decomp.vectors import Array, cross, norm, number, positive
+from decomp.vectors import Array, cross, norm, positive
+from decomp.vectors import number as finite
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
@@ -67,7 +68,7 @@ class Wanted:
                 raise InputError(f"layers must be from 1 to 100, got {layers}")
             object.__setattr__(self, "layers", layers)
         if self.per_circle is not None:
-            count = number(self.per_circle, "elements per circle")
+            count = finite(self.per_circle, "elements per circle")
             if not 3 <= count <= 10000:
                 raise InputError(f"elements per circle must be from 3 to 10000, got {count:g}")
             object.__setattr__(self, "per_circle", count)
