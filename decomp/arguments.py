@@ -1,10 +1,8 @@
-"""Checks of arguments that are no numbers of geometry: counts, choices, switches, paths, calls."""
+"""Checks of arguments that are no numbers of geometry: counts, choices, switches, calls."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -59,14 +57,3 @@ def called(value: Any, what: str) -> None:
     """
     if value is not None and not callable(value):
         raise InputError(f"{what} must be a function or None, got {value!r}")
-
-
-def path_of(value: Any, what: str) -> Path:
-    """Return `value` as a path.
-
-    Raises:
-        InputError: it is neither a text nor a path; the message names `what`.
-    """
-    if not isinstance(value, (str, os.PathLike)):
-        raise InputError(f"{what} must be a path, got {value!r}")
-    return Path(value)

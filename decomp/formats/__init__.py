@@ -10,9 +10,9 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
-from decomp.arguments import path_of
 from decomp.errors import FileError, InputError, ParseError
 from decomp.formats.foreign import advice
+from decomp.paths import path_of
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from decomp.arguments import path_of
 from decomp.errors import InputError
+from decomp.paths import path_of
 
 
 def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:

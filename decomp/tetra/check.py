@@ -15,11 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-from decomp.arguments import called, path_of, whole
+from decomp.arguments import called, whole
 from decomp.compute import skeleton
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
+from decomp.paths import path_of
 from decomp.tetra.check_cells import KnownCells, known_cells
 from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings

@@ -53,7 +53,7 @@ def test_as_text() -> None:
 def test_ignored_statements_are_told_of() -> None:
     found = report(bar(), ignored=[Ignored("point (1,1,1)", 4)])
     assert as_text(found)[-1] == "  ignored line 4: point (1,1,1)"
-    assert as_json(found)["ignored"] == [{"statement": "point (1,1,1)", "line": 4}]
+    assert list(as_json(found)["ignored"]) == [{"statement": "point (1,1,1)", "line": 4}]
     page = encoded(bar(), found).decode()
     assert "<h2>Ignored statements</h2>" in page
     assert "<td>4</td><td>point (1,1,1)</td>" in page

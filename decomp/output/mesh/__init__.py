@@ -8,7 +8,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from decomp.arguments import switch
 from decomp.errors import InputError
 from decomp.output.suffixes import known_suffix
 
@@ -62,6 +61,7 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
         InputError: the suffix or the version is unknown.
         FileError: the file cannot be written.
     """
+    from decomp.arguments import switch
     from decomp.output.whole_file import check_target, write_whole
 
     suffix = suffix_of(path)
