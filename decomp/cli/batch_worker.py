@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from decomp.cli.ending import EndedError, endings
+from decomp.cli.ending import EndedError, endings, leave
 from decomp.tetra.lifeline import die_with_parent
 
 
@@ -21,7 +21,7 @@ def main() -> int:
     """Mesh a model and write it.
 
     Returns:
-        0, an error's exit code, or 128 + n when ended by signal n.
+        0 or an error's exit code; when ended by signal n, it ends with 128 + n.
     """
     try:
         with endings():
@@ -29,7 +29,7 @@ def main() -> int:
             die_with_parent()
             return _meshed(json.loads(given))
     except EndedError as end:
-        return end.exit_code
+        leave(end.exit_code)
 
 
 def _meshed(given: dict[str, Any]) -> int:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from typing import NoReturn
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
-from decomp.cli.ending import EndedError, endings
+from decomp.cli.ending import EndedError, endings, leave
 from decomp.errors import DecompError
 from decomp.tetra.workplace import sweep
 
@@ -86,5 +88,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def program() -> NoReturn:
+    """Run the command line as a process, and end it."""
+    code = main()
+    if code >= INTERRUPTED - signal.SIGINT:
+        leave(code)
+    sys.exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    program()
