@@ -1,7 +1,5 @@
 """The command line as `python -m decomp`."""
 
-import sys
+from decomp.cli.main import program
 
-from decomp.cli.main import main
-
-sys.exit(main())
+program()

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from decomp.arguments import called
 from decomp.certificate.certificate import VOLUME
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
@@ -22,13 +23,13 @@ from decomp.fineness import fine_enough, finer, volume_error
 from decomp.geometry import Geometry
 from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.result import Skeleton
-from decomp.vectors import number
+from decomp.vectors import positive
 from decomp.whole import Whole
 
 TOLERANCE = 5e-4
 """Default chord tolerance, relative to the model's diagonal."""
-COARSEST = 0.1
-"""The largest that can be asked for."""
+LARGEST = 0.1
+"""The largest chord tolerance that can be asked for."""
 TRACING = 0.6
 """The part of the whole that tracing is taken for."""
 FINENESSES = 4
@@ -53,13 +54,15 @@ def skeleton(
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
-        InputError: the tolerance is out of its range.
+        InputError: the tolerance is no number above zero, or larger than a tenth.
         FileError: the file cannot be read.
         GeometryError: the solid, or its skeleton, cannot be computed; says where and what was
             tried.
     """
-    if not number(tolerance, "tolerance") > 0 or tolerance > COARSEST:
-        raise InputError(f"tolerance must be above 0 and at most {COARSEST:g}, got {tolerance!r}")
+    tolerance = positive(tolerance, "tolerance")
+    if tolerance > LARGEST:
+        raise InputError(f"tolerance must be at most {LARGEST:g}, got {tolerance:g}")
+    called(progress, "progress")
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
     failures: list[str] = []

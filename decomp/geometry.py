@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,6 +27,7 @@ class Geometry:
         source: a model, a solid, a dict of named solids, or the path of a model file.
 
     Raises:
+        InputError: the source is none of these.
         FileError: the file cannot be read; its subclasses say where.
         GeometryError: a region is empty, unbounded, overlaps another or touches itself.
     """
@@ -58,7 +59,10 @@ class Geometry:
         from decomp.sites import SiteIndex
 
         found = self.boundaries
-        return SiteIndex(found.form, found.regions, lambda: found.outside, found.face_at)
+        # no lambda, as a geometry may be pickled
+        return SiteIndex(
+            found.form, found.regions, partial(getattr, found, "outside"), found.face_at
+        )
 
     def contains(self, points: ArrayLike) -> Bools:
         """Whether points (n, 3) lie in some region: (n,) bool.

@@ -14,9 +14,9 @@ from typing import Literal
 
 import numpy as np
 
+from decomp.arguments import called, one_of, switch
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
-from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.child import TimeLimit
 from decomp.tetra.fields import checked_fields, with_fields
@@ -66,27 +66,25 @@ def mesh(
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
-        InputError: an option is out of its range, or the mesh would not fit into memory.
+        InputError: an option is of a wrong kind or out of its range, or the mesh would not fit
+            into memory.
         FileError: the file cannot be read.
         GeometryError: the solid or its skeleton cannot be computed.
         MeshingError: TetWild fails.
     """
-    geometry = source if isinstance(source, Geometry) else Geometry(source)
-    tell = progress or (lambda what, done: None)
-    for value, allowed, what in (
-        (order, (1, 2), "order"),
-        (cells, ("skeleton", "face"), "cells"),
-        (volumes, ("cells", "regions"), "volumes"),
-    ):
-        if value not in allowed:
-            raise InputError(f"{what} must be one of {allowed}, got {value!r}")
-    if timeout is not None:
-        positive(timeout, "timeout")
+    order = one_of(order, (1, 2), "order")
+    cells = one_of(cells, ("skeleton", "face"), "cells")
+    volumes = one_of(volumes, ("cells", "regions"), "volumes")
+    sheets = switch(sheets, "sheets")
+    called(progress, "progress")
+    seconds = None if timeout is None else positive(timeout, "timeout")
     asked = checked_fields(fields)
     wanted = Wanted(size, layers, elements_per_circle)
+    geometry = source if isinstance(source, Geometry) else Geometry(source)
+    tell = progress or (lambda what, done: None)
     given = prepared(geometry, wanted, cells == "face", _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
-    limit = TimeLimit(timeout) if timeout is not None else TimeLimit.of_work(work)
+    limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
     if order == 2:
         tell("curving", FILLED)

@@ -21,6 +21,19 @@ def frozen(values: ArrayLike) -> Array:
     return array
 
 
+def reals(values: ArrayLike) -> NDArray[Any]:
+    """Return `values` as an array of real numbers.
+
+    Raises:
+        TypeError: they are texts, or True or False, of which numpy would make numbers.
+        ValueError: their shape is uneven.
+    """
+    array = np.asarray(values)
+    if array.dtype.kind not in "iufO":
+        raise TypeError(f"{array.dtype} is no kind of real number")
+    return array
+
+
 def vector(values: ArrayLike, what: str) -> Array:
     """Return three finite numbers as a read-only vector.
 
@@ -28,8 +41,8 @@ def vector(values: ArrayLike, what: str) -> Array:
         InputError: not three finite numbers; the message names `what`.
     """
     try:
-        array = frozen(values)
-    except (TypeError, ValueError):
+        array = frozen(reals(values))
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{what} must be three numbers, got {values!r}") from None
     if array.shape != (3,):
         raise InputError(f"{what} must be three numbers, got {values!r}")
@@ -59,7 +72,13 @@ def number(value: Any, what: str) -> float:
         InputError: not a finite number.
     """
     try:
-        result = float(value)
+        # no text, no True or False, of which Python would make numbers
+        given = reals(value)
+        if given.ndim:
+            raise TypeError("these are several numbers")
+        result = float(given)
+    except OverflowError:
+        raise InputError(f"{what} must be finite, got a number of too many digits") from None
     except (TypeError, ValueError):
         raise InputError(f"{what} must be a number, got {value!r}") from None
     if not np.isfinite(result):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import FrozenInstanceError
 from math import inf, nan, pi
+from typing import Any
 
 import numpy as np
 import pytest
@@ -97,6 +99,58 @@ def test_a_face_cut_in_two_gets_two_names() -> None:
 def test_unnamed_primitives_are_numbered_by_kind() -> None:
     region = Geometry(BLOCK - Sphere((0, 0, 0), 0.3) - Sphere((1, 1, 1), 0.3)).regions[0]
     assert {f.name for f in region.faces} >= {"block1.xmin", "sphere1.surface", "sphere2.surface"}
+
+
+WRONG = [
+    ({"maxH": 1}, "unknown option 'maxH'"),
+    ({"material": "tin"}, "'material', which is an option of regions"),
+    *(
+        ({"maxh": value}, f"option maxh of solid 'x' must be a length above zero, got {value!r}")
+        for value in (-1, 0, None, float("nan"), float("inf"), True, "1", [1], 10**400)
+    ),
+    *(({"bc": value}, "must be a whole number") for value in (1.5, "1", True, None, float("nan"))),
+    *(({"bcname": value}, "must be a text") for value in ("", 1, None)),
+]
+
+
+@pytest.mark.parametrize(("options", "said"), WRONG)
+def test_wrong_options_are_refused(options: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError) as caught:
+        BLOCK.named("x", **options)
+    assert said[:60] in str(caught.value)
+    exist = "; there are maxh (a length above zero), bc (a whole number), bcname (a text)"
+    assert str(caught.value).endswith(exist)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"maxH": 1}, "region 'x' has an unknown option 'maxH'; there are maxh "),
+        ({"bcname": "a"}, "'bcname', which is an option of faces"),
+        ({"maxh": -1}, "option maxh of region 'x' must be a length above zero, got -1"),
+        ({"col": (1, 2)}, "must be three numbers, got (1, 2)"),
+        ({"col": "red"}, "must be three numbers, got 'red'"),
+        ({"transparent": 1}, "must be True or False"),
+        ({"layer": 1.5}, "must be a whole number"),
+        (5, "must have options by name, got 5"),
+    ],
+)
+def test_wrong_options_of_regions_are_refused(options: Any, said: str) -> None:
+    with pytest.raises(InputError, match=re.escape(said)):
+        Region("x", BLOCK, options)
+
+
+def test_options_become_plain_and_read_only() -> None:
+    given = {"maxh": np.float64(4), "bc": np.int32(2)}
+    solid = BLOCK.named("x", **given)
+    assert dict(solid.options) == {"maxh": 4.0, "bc": 2}
+    assert [type(value) for value in solid.options.values()] == [float, int]
+    mine: dict[str, Any] = {"maxh": 1, "material": "tin", "col": np.array([1, 0, 0])}
+    region = Region("x", BLOCK, mine)
+    mine["maxh"] = 2
+    assert dict(region.options) == {"maxh": 1, "material": "tin", "col": (1, 0, 0)}
+    with pytest.raises(TypeError):
+        region.options["maxh"] = 3  # type: ignore[index]
 
 
 def test_options_reach_the_faces_and_inner_ones_win() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from decomp.boundary.faces import RawFace
 from decomp.boundary.member import Member
 from decomp.csg.halfspaces import Placed
-from decomp.csg.solid import Options
+from decomp.csg.options import Options
 from decomp.vectors import Array
 
 

@@ -8,7 +8,7 @@ from enum import Enum
 import numpy as np
 
 from decomp.carriers import Carrier
-from decomp.csg.solid import Options
+from decomp.csg.options import Options
 from decomp.curves.base import Curve
 from decomp.vectors import Array
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import signal
 import subprocess
 import sys
 import time
@@ -24,8 +23,8 @@ PASSED = (
     *("ascii", "msh2", "timeout", "quiet"),
 )
 """Options that are handed on."""
-PATIENCE = 5.0
-"""Seconds that a process is given to end after an interrupt."""
+PATIENCE = 1.5
+"""Seconds that a process is given to end when it is asked to."""
 
 Tell = Callable[[str, float], None]
 
@@ -126,12 +125,11 @@ def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcom
         ThreadPoolExecutor(options.jobs or 1) as pool,
     ):
         given = zip(options.models, targets, tells, strict=True)
-        waiting = [pool.submit(_one, options, *each, running) for each in given]
         try:
+            waiting = [pool.submit(_one, options, *each, running) for each in given]
             return [future.result() for future in waiting]
         except BaseException:
-            for future in waiting:
-                future.cancel()
+            # those that wait are not begun any more
             running.stop()
             raise
 
@@ -149,18 +147,24 @@ def _one(
     assert process.stdin is not None
     assert process.stdout is not None
     assert process.stderr is not None
-    given = json.dumps({**values, "model": str(model), "output": str(target)})
-    with suppress(BrokenPipeError):  # a process that has ended at once says why on stderr
-        process.stdin.write(given)
-        process.stdin.close()
     figures, error = None, ""
+    # one that has died already is told of below; the pipe stays open, as its end tells the
+    # process that this one has died
+    with suppress(BrokenPipeError):
+        given = json.dumps({**values, "model": str(model), "output": str(target)})
+        process.stdin.write(given + "\n")
+        process.stdin.flush()
     for line in process.stdout:
+        if not line.endswith("\n"):
+            break
         said = json.loads(line)
         if "what" in said:
             tell(said["what"], said["done"])
         figures, error = said.get("figures", figures), said.get("error", error)
     noise = process.stderr.read().strip().splitlines()
     code = process.wait()
+    with suppress(BrokenPipeError):
+        process.stdin.close()
     if figures is None and not error:
         error = f"ended with code {code}" + (f": {noise[-1]}" if noise else "")
     tell("failed" if error else "done", 1.0)
@@ -192,12 +196,12 @@ class _Workers:
             return process
 
     def stop(self) -> None:
-        """Interrupt all, and kill those that do not end soon."""
+        """Ask all to end, and kill those that do not soon."""
         with self._lock:
             self._stopped = True
         for process in self._all:
             if process.poll() is None:
-                process.send_signal(signal.SIGINT)
+                process.terminate()
         end = time.monotonic() + PATIENCE
         for process in self._all:
             try:

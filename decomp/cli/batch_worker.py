@@ -1,7 +1,8 @@
 """One model of a batch, in a process of its own: `python -m decomp.cli.batch_worker`.
 
-Options come as JSON on stdin; on stdout go JSON lines: `{"what": ..., "done": ...}` while it works,
-then `{"figures": ...}` (the report) or `{"error": ..., "code": ...}`.
+Options come as a line of JSON on stdin, whose end tells it to end too; on stdout go JSON lines:
+`{"what": ..., "done": ...}` while it works, then `{"figures": ...}` (the report) or
+`{"error": ..., "code": ...}`.
 """
 
 from __future__ import annotations
@@ -12,14 +13,30 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from decomp.cli.ending import EndedError, endings, leave
+from decomp.tetra.lifeline import die_with_parent
+
 
 def main() -> int:
-    """Mesh a model and write it."""
+    """Mesh a model and write it.
+
+    Returns:
+        0 or an error's exit code; when ended by signal n, it ends with 128 + n.
+    """
+    try:
+        with endings():
+            given = sys.stdin.readline()
+            die_with_parent()
+            return _meshed(json.loads(given))
+    except EndedError as end:
+        leave(end.exit_code)
+
+
+def _meshed(given: dict[str, Any]) -> int:
     from decomp.cli.mesh import meshed, written
     from decomp.errors import DecompError
     from decomp.tetra.report import as_json
 
-    given = json.loads(sys.stdin.read())
     paths = {"model": Path(given["model"]), "output": [Path(given["output"])]}
     options = argparse.Namespace(**{**given, **paths})
     try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,16 +50,20 @@ def as_json(model: Model, result: Boundaries) -> dict[str, Any]:
     return {
         "model": model.name,
         "diagonal": result.diagonal,
-        "regions": [_region_json(region) for region in result.regions],
+        "regions": [
+            _region_json(region, given.options)
+            for region, given in zip(result.regions, model.regions, strict=True)
+        ],
         "touching": [[result.regions[k].name for k in pair] for pair in result.touching],
         "ignored": [{"statement": i.statement, "line": i.line} for i in model.ignored],
     }
 
 
-def _region_json(region: RegionBoundary) -> dict[str, Any]:
+def _region_json(region: RegionBoundary, options: Mapping[str, Any]) -> dict[str, Any]:
     names = [face.name for face in region.faces]
     return {
         "name": region.name,
+        **({"options": dict(options)} if options else {}),
         "volume": region.volume,
         "volume_error": region.volume_error,
         "area": region.area,
@@ -98,8 +103,8 @@ def as_text(model: Model, result: Boundaries) -> list[str]:
     """The model's contents as lines for people."""
     lines = [f"model {model.name}: {_count(len(result.regions), 'region')}"]
     lines.append(f"  diagonal {result.diagonal:.9g}")
-    for region in result.regions:
-        lines += ["", *_region_text(region)]
+    for region, given in zip(result.regions, model.regions, strict=True):
+        lines += ["", *_region_text(region, given.options)]
     if result.touching:
         pairs = (" and ".join(result.regions[k].name for k in pair) for pair in result.touching)
         lines += ["", f"regions that touch: {', '.join(pairs)}"]
@@ -109,7 +114,7 @@ def as_text(model: Model, result: Boundaries) -> list[str]:
     return lines
 
 
-def _region_text(region: RegionBoundary) -> list[str]:
+def _region_text(region: RegionBoundary, options: Mapping[str, Any]) -> list[str]:
     low, high = (" ".join(f"{x + 0.0:.9g}" for x in corner) for corner in region.bounds)
     lines = [
         f"region {region.name}",
@@ -117,6 +122,7 @@ def _region_text(region: RegionBoundary) -> list[str]:
         f"  area    {region.area:.12g}  (error below {region.area_error:.1e})",
         f"  box     {low}  to  {high}",
         f"  Euler characteristic {region.euler}",
+        *([f"  options {_options(options)}"] if options else []),
         f"  {_count(len(region.faces), 'face')}",
     ]
     width = max(len(face.name) for face in region.faces)
@@ -130,6 +136,17 @@ def _region_text(region: RegionBoundary) -> list[str]:
     plural = "vertex" if len(region.vertices) == 1 else "vertices"
     lines.append(f"  {len(region.vertices)} {plural}{_shapes(kinds)}")
     return lines
+
+
+def _options(options: Mapping[str, Any]) -> str:
+    """As they are written: `maxh=3 material=steel`."""
+    return " ".join(f"{key}={_value(value)}" for key, value in options.items())
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{each:.9g}' for each in value)})"
+    return f"{value:.9g}" if isinstance(value, float) else str(value)
 
 
 def _shapes(counts: Counter[tuple[str, str]]) -> str:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
+from decomp.cli.ending import EndedError, endings, leave
 from decomp.cli.printed import ReaderGoneError, complain, printing
 from decomp.errors import DecompError
+from decomp.tetra.workplace import sweep
 
 EXAMPLES = """\
 examples:
@@ -50,7 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: without the program's name; by default those of the process.
 
     Returns:
-        0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted.
+        0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted, 128 + n when
+        ended by signal n.
     """
     try:
         with printing():
@@ -61,6 +66,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         complain("decomp: interrupted")
         return INTERRUPTED
+    except EndedError as end:
+        complain(f"decomp: ended by {end}")
+        return end.exit_code
     except ReaderGoneError:
         return 0
 
@@ -74,9 +82,19 @@ def _run(options: argparse.Namespace) -> int:
     if options.command is None:
         parser().print_help()
         return 2
-    options.run(options)
+    with endings():
+        sweep()
+        options.run(options)
     return 0
 
 
+def program() -> NoReturn:
+    """Run the command line as a process, and end it."""
+    code = main()
+    if code >= INTERRUPTED - signal.SIGINT:
+        leave(code)
+    sys.exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    program()

@@ -247,7 +247,8 @@ def meshed(
             progress=stages,
         )
         spent = stages.spent()
-    return made, report(made, {each.name: each.volume for each in geometry.regions}, spent)
+    exact = {each.name: each.volume for each in geometry.regions}
+    return made, report(made, exact, spent, model.ignored)
 
 
 def _count(text: str) -> int:

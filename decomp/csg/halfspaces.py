@@ -7,13 +7,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from types import MappingProxyType
 
 import numpy as np
 
 from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
 from decomp.csg.extents import BOX_SLACK, extents
 from decomp.csg.model import Model
+from decomp.csg.options import Options
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import FALSE, TRUE, Program, ProgramBuilder, inverted
 from decomp.csg.solid import (
@@ -22,11 +22,9 @@ from decomp.csg.solid import (
     Difference,
     Intersection,
     Labelled,
-    Options,
     Solid,
     Transformed,
     Union,
-    no_options,
     walk,
 )
 from decomp.similarity import IDENTITY, Similarity
@@ -192,7 +190,7 @@ class _Expander:
         self._done: dict[tuple[int, int], int] = {}
         self._placed_at: dict[int, int] = {}
         self._contexts: dict[tuple[int, int, int], _Context] = {}
-        self._root = _Context(IDENTITY, "", "", no_options())
+        self._root = _Context(IDENTITY, "", "", Options())
 
     def expand(self, root: Solid) -> int:
         """Reference to the node that stands for `root`."""
@@ -301,7 +299,7 @@ def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
             return _Context(inner, outer.prefix, f"#{copy + 1}{outer.suffix}", outer.options)
         case Labelled(name=name, options=options):
             prefix = outer.prefix if name is None else f"{outer.prefix}{name}."
-            merged = MappingProxyType({**outer.options, **options})
+            merged = Options({**outer.options, **options})
             return _Context(outer.transform, prefix, outer.suffix, merged)
     raise TypeError(f"{type(node).__name__} gives no context")
 

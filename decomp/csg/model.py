@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from decomp.csg.solid import Options, Solid, checked_name, no_options
+from decomp.csg.options import OF_REGIONS, Options, checked
+from decomp.csg.packing import Packed, packed, unpacked
+from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A named solid with the options its file gave it (`maxh`, `bc`, `col`, `material`...)."""
+    """A named solid with options, such as `maxh`, the largest edge length wanted in it.
+
+    Raises:
+        InputError: it is of no solid; an option is unknown, or its value wrong
+            (`decomp.csg.options.OF_REGIONS`).
+    """
 
     name: str
     solid: Solid
-    options: Options = field(default_factory=no_options)
+    options: Mapping[str, Any] = field(default_factory=Options)
+
+    def __post_init__(self) -> None:
+        where = f"region {self.name!r}"
+        if not isinstance(self.solid, Solid):
+            raise InputError(f"{where} must be a solid, got {self.solid!r}")
+        object.__setattr__(self, "options", checked(self.options, OF_REGIONS, where))
 
 
 @dataclass(frozen=True)
@@ -39,7 +53,7 @@ class Model:
         source: the file that it was read from, None if from none; no output may replace it.
 
     Raises:
-        InputError: no region, or two of the same name.
+        InputError: no region, what is none, or two of the same name.
     """
 
     regions: tuple[Region, ...]
@@ -50,10 +64,32 @@ class Model:
     def __post_init__(self) -> None:
         if not self.regions:
             raise InputError(f"model {self.name!r} has no region: define at least one solid")
+        for region in self.regions:
+            if not isinstance(region, Region):
+                raise InputError(f"{region!r} is no region; decomp.Region(name, solid) makes one")
         counts = Counter(checked_name(region.name) for region in self.regions)
         name, count = counts.most_common(1)[0]
         if count > 1:
             raise InputError(f"{count} regions are named {name!r}: give each its own name")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled and copied so that regions go on sharing solids."""
+        rest = tuple((region.name, region.options) for region in self.regions)
+        solids = packed([region.solid for region in self.regions])
+        return _unpickled, (solids, rest, self.name, self.ignored)
+
+
+def _unpickled(
+    solids: Packed,
+    rest: Sequence[tuple[str, Mapping[str, Any]]],
+    name: str,
+    ignored: tuple[Ignored, ...],
+) -> Model:
+    regions = (
+        Region(each, solid, options)
+        for solid, (each, options) in zip(unpacked(solids), rest, strict=True)
+    )
+    return Model(tuple(regions), name, ignored)
 
 
 def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "model") -> Model:
@@ -62,19 +98,15 @@ def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "mode
     A single solid becomes the region `solid`.
 
     Raises:
-        InputError: these are no solids, a name cannot be one, or there is no region.
+        InputError: it is none of these.
     """
     if isinstance(solids, Solid):
         return Model((Region("solid", solids),), name)
     if isinstance(solids, dict):
-        regions = tuple(Region(key, solid) for key, solid in solids.items())
-    elif isinstance(solids, Sequence) and all(isinstance(region, Region) for region in solids):
-        regions = tuple(solids)
-    else:
+        return Model(tuple(Region(key, solid) for key, solid in solids.items()), name)
+    given: object = solids
+    if not isinstance(given, Iterable) or isinstance(given, (str, bytes)):
         raise InputError(
-            f"a model is made of a solid, of named solids or of regions, not {solids!r}"
+            f"a model is made of a solid, of solids by name, or of regions in a list, got {given!r}"
         )
-    for region in regions:
-        if not isinstance(region.name, str) or not isinstance(region.solid, Solid):
-            raise InputError(f"{region.name!r}: {region.solid!r} is no named solid")
-    return Model(regions, name)
+    return Model(tuple(solids), name)

@@ -8,23 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from decomp import similarity
+from decomp.csg.options import OF_FACES, Options, checked
 from decomp.errors import InputError
 from decomp.similarity import Similarity
 from decomp.vectors import direction, number, vector
-
-Options = Mapping[str, Any]
-
-
-def no_options() -> Options:
-    """An empty, read-only set of options."""
-    return MappingProxyType({})
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -52,13 +45,14 @@ class Solid:
 
         Args:
             name: as in `name.hole.side`.
-            options: such as `bc=3`, the boundary condition's number, and `maxh=0.1`, the largest
-                edge length, as Netgen's flags.
+            options: `maxh`, the largest edge length wanted, in model units; `bc`, the number of a
+                boundary condition; `bcname`, its name.
 
         Raises:
-            InputError: the name is empty or holds a character that face names use.
+            InputError: the name is empty or holds a character that face names use; there is no
+                such option, or its value is none that it may have.
         """
-        return Labelled(self, checked_name(name), MappingProxyType(dict(options)))
+        return Labelled(self, checked_name(name), options)
 
     def translate(self, offset: ArrayLike) -> Transformed:
         """Move by `offset`, (3,).
@@ -135,6 +129,17 @@ class Solid:
         """The solids that this node is made of."""
         return ()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickled and copied as a flat list, as trees may be deep."""
+        from decomp.csg.packing import packed, unpacked_one
+
+        return unpacked_one, (packed((self,)),)
+
+    def __copy__(self) -> Solid:
+        result = object.__new__(type(self))
+        vars(result).update(vars(self))
+        return result
+
     def __repr__(self) -> str:
         inside = len(self.children())
         return f"<{type(self).__name__} of {inside}>" if inside else f"<{type(self).__name__}>"
@@ -208,11 +213,18 @@ class Labelled(Solid):
     """The same points as `part`, with a name before its faces' names and options for them.
 
     Where labels are nested, an inner option wins over an outer one of the same key.
+
+    Raises:
+        InputError: an option is unknown, or its value wrong (`decomp.csg.options.OF_FACES`).
     """
 
     part: Solid
     name: str | None
-    options: Options = field(default_factory=no_options)
+    options: Mapping[str, Any] = field(default_factory=Options)
+
+    def __post_init__(self) -> None:
+        where = "a solid" if self.name is None else f"solid {self.name!r}"
+        object.__setattr__(self, "options", checked(self.options, OF_FACES, where))
 
     def children(self) -> tuple[Solid, ...]:
         return (self.part,)
@@ -255,7 +267,11 @@ RESERVED = ".#/"
 
 def checked_name(name: str) -> str:
     """Return `name`, or raise InputError if it is empty or holds `. # /`, quotes or blanks."""
-    if not name or any(c in RESERVED or c.isspace() or c == '"' for c in name):
+    if (
+        not isinstance(name, str)
+        or not name
+        or any(c in RESERVED or c.isspace() or c == '"' for c in name)
+    ):
         raise InputError(
             f"{name!r} cannot be a name: use at least one character, no blanks, quotes or any of "
             + " ".join(RESERVED)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from decomp.errors import InputError
 from decomp.files.targets import is_special
+from decomp.paths import path_of
 
 
 def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
@@ -22,7 +23,7 @@ def known_suffix(path: str | Path, suffixes: Sequence[str], what: str) -> str:
     Raises:
         InputError: it is none of `suffixes`.
     """
-    suffix = Path(path).suffix.lower()
+    suffix = path_of(path, "the file to write").suffix.lower()
     if not suffix and is_special(path):
         return suffixes[0]
     if suffix not in suffixes:

@@ -15,6 +15,7 @@ from decomp.files.suffixes import known_suffix
 from decomp.files.targets import check_outputs, reason
 from decomp.files.whole_file import write_whole
 from decomp.formats.foreign import advice
+from decomp.paths import path_of
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
@@ -39,7 +40,7 @@ def load(path: str | Path) -> Model:
         ParseError: its text is wrong.
         UnsupportedError: it uses what lies outside the five primitives and similarities.
     """
-    file = Path(path)
+    file = path_of(path, "the model's file")
     data = _bytes(file)
     suffix = file.suffix.lower().removeprefix(".")
     form = next((known for known in FORMATS if known == suffix), None)
@@ -94,6 +95,7 @@ def save(source: Model | Solid | dict[str, Solid], path: str | Path) -> None:
     from decomp.csg.model import Model, model
     from decomp.formats import native
 
+    path = path_of(path, "the file to write")
     made = source if isinstance(source, Model) else model(source)
     check_saving(path, made.source)
     text = native.dumps(made)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
-from types import MappingProxyType
 from typing import Any
 
-from decomp.csg.solid import Options, checked_name
+from decomp.csg.options import Known, Options, checked
+from decomp.csg.solid import checked_name
 from decomp.errors import InputError
-from decomp.formats.native_schema import DEEPEST_OPTION, KNOWN
+from decomp.formats.native_schema import KNOWN
 from decomp.vectors import Array, frozen
 
 
@@ -78,12 +79,10 @@ class Item:
         """The three numbers (3,) of a key."""
         return a_vector(self.get(key), self.place(key))
 
-    def options(self) -> Options:
-        """The options of a node or region."""
+    def options(self, known: Mapping[str, Known]) -> Options:
+        """The options of a node or region, which may have the known ones."""
         item = Item(self.value.get("options", {}), self.place("options"))
-        return MappingProxyType(
-            {key: an_option(each, item.place(key)) for key, each in item.value.items()}
-        )
+        return checked(item.value, known, item.where)
 
 
 def a_list(value: Any, where: str) -> list[Any]:
@@ -119,19 +118,6 @@ def a_vector(value: Any, where: str) -> Array:
     if len(values) != 3:
         raise InputError(f"{where} must be three numbers, not {len(values)}")
     return frozen([a_number(each, where) for each in values])
-
-
-def an_option(value: Any, where: str, depth: int = 0) -> Any:
-    """An option's value, its lists as tuples."""
-    if depth > DEEPEST_OPTION:
-        raise InputError(f"{where} is nested too deep")
-    if isinstance(value, list):
-        return tuple(an_option(each, where, depth + 1) for each in value)
-    if isinstance(value, dict):
-        return {key: an_option(each, where, depth + 1) for key, each in value.items()}
-    if isinstance(value, float) and not isfinite(value):
-        raise InputError(f"{where} must be finite")
-    return value
 
 
 def shown(value: Any) -> str:

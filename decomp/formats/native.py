@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from decomp.csg.model import Ignored, Model, Region
+from decomp.csg.options import OF_FACES, OF_REGIONS
 from decomp.csg.primitives import Primitive
 from decomp.csg.solid import (
     Complement,
@@ -85,7 +86,7 @@ def _model(document: Any, name: str) -> Model:
         item = Item(value, f"regions[{k}]")
         item.only("name", "solid", "options")
         solid = _earlier(item.get("solid"), nodes, item.place("solid"))
-        regions.append(Region(item.text("name"), solid, item.options()))
+        regions.append(Region(item.text("name"), solid, item.options(OF_REGIONS)))
     ignored = []
     for k, value in enumerate(a_list(document.get("ignored", []), "ignored")):
         item = Item(value, f"ignored[{k}]")
@@ -123,7 +124,7 @@ def _solid(item: Item, nodes: list[Solid]) -> Solid:
                 raise InputError(f"{item.place('by')} must hold at least one transform")
             return Copies(part("part"), tuple(moves))
         case _:
-            return Labelled(part("part"), item.name(), item.options())
+            return Labelled(part("part"), item.name(), item.options(OF_FACES))
 
 
 def _primitive(item: Item, cls: type[Primitive], fields: Mapping[str, str]) -> Primitive:

@@ -15,8 +15,6 @@ from decomp.csg.primitives import (
 )
 
 VERSION = 1
-DEEPEST_OPTION = 16
-"""Options' values may be nested so deep."""
 
 # each primitive's fields: p a point or vector, d a unit vector, n a number
 PRIMITIVES: dict[str, tuple[type[Primitive], dict[str, str]]] = {

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -17,14 +16,13 @@ from decomp.csg.solid import (
     Difference,
     Intersection,
     Labelled,
-    Options,
     Solid,
     Transformed,
     Union,
     walk,
 )
 from decomp.errors import InputError
-from decomp.formats.native_schema import DEEPEST_OPTION, PRIMITIVES, TYPE_OF, VERSION
+from decomp.formats.native_schema import PRIMITIVES, TYPE_OF, VERSION
 from decomp.similarity import Similarity
 
 
@@ -32,7 +30,7 @@ def dumps(model: Model) -> str:
     """Write a model as JSON text, one node a line.
 
     Raises:
-        InputError: an option's value has no JSON form, or a solid is of an unknown class.
+        InputError: a solid is of an unknown class.
     """
     index: dict[int, int] = {}
     nodes = []
@@ -44,7 +42,7 @@ def dumps(model: Model) -> str:
             {
                 "name": region.name,
                 "solid": index[id(region.solid)],
-                "options": _options_out(region.options, f"region {region.name!r}"),
+                "options": dict(region.options),
             }
         )
         for region in model.regions
@@ -85,7 +83,7 @@ def _node(node: Solid, index: Mapping[int, int]) -> dict[str, Any]:
             moves = [_similarity_out(move) for move in node.by]
             return {"type": "copies", "part": parts[0], "by": moves}
         case Labelled():
-            options = _options_out(node.options, f"label {node.name!r}")
+            options = dict(node.options)
             return {"type": "labelled", "part": parts[0], "name": node.name, "options": options}
         case _:
             raise InputError(f"a {type(node).__name__} has no JSON form")
@@ -101,35 +99,3 @@ def _similarity_out(by: Similarity) -> dict[str, Any]:
         "scale": float(by.scale),
         "offset": by.offset.tolist(),
     }
-
-
-def _options_out(options: Options, where: str) -> dict[str, Any]:
-    return {
-        _option_key(key, where): _option_out(value, f"option {key!r} of {where}")
-        for key, value in options.items()
-    }
-
-
-def _option_key(key: Any, where: str) -> str:
-    if not isinstance(key, str):
-        raise InputError(f"{where} has an option {key!r}, whose name is no text")
-    return key
-
-
-def _option_out(value: Any, where: str, depth: int = 0) -> Any:
-    if isinstance(value, (np.generic, np.ndarray)):
-        value = value.tolist()
-    if depth <= DEEPEST_OPTION:
-        if value is None or isinstance(value, (bool, int, str)):
-            return value
-        if isinstance(value, float) and isfinite(value):
-            return value
-        if isinstance(value, (list, tuple)):
-            return [_option_out(each, where, depth + 1) for each in value]
-        if isinstance(value, Mapping):
-            return {
-                _option_key(key, where): _option_out(each, where, depth + 1)
-                for key, each in value.items()
-            }
-    shown = repr(value) if isinstance(value, float) else f"a {type(value).__name__}"
-    raise InputError(f"{where} is {shown}, which has no JSON form")

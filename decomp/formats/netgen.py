@@ -10,14 +10,14 @@ from __future__ import annotations
 import copy
 import re
 from collections import Counter
-from collections.abc import Callable, Collection
-from types import MappingProxyType
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from decomp import similarity
 from decomp.csg.model import Ignored, Model, Region
+from decomp.csg.options import OF_FACES, OF_REGIONS, Known, Options
 from decomp.csg.primitives import (
     Block,
     HalfSpace,
@@ -32,13 +32,13 @@ from decomp.csg.solid import (
     Copies,
     Intersection,
     Labelled,
-    Options,
     Solid,
     Transformed,
     Union,
 )
 from decomp.errors import FileError, InputError
 from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern
+from decomp.formats.netgen_flags import Flag, options, plain
 from decomp.formats.source import Source
 from decomp.similarity import Similarity
 
@@ -181,8 +181,8 @@ class _Reader:
         _, body, *flags, _ = parts
         if isinstance(body, Labelled) and body is self.last and self.counts.total() == 1:
             body = _renamed(body.part, self.current)
-        options = _options(flags)
-        self.solids[self.current] = Labelled(body, None, options) if options else body
+        found = self.options(flags, OF_FACES, f"solid {self.current}")
+        self.solids[self.current] = Labelled(body, None, found) if found else body
         self.current = ""
 
     def region(self, parts: list[Any]) -> None:
@@ -190,7 +190,8 @@ class _Reader:
         solid = self.reference([name])
         if name in self.regions:
             raise self.wrong(f"the solid {str(name)!r} is a tlo already", name)
-        self.regions[str(name)] = Region(str(name), solid, _options(flags))
+        found = self.options(flags, OF_REGIONS, f"tlo {name}")
+        self.regions[str(name)] = Region(str(name), solid, found)
 
     def patch(self, parts: list[Any]) -> None:
         for name in parts[1:3]:
@@ -254,21 +255,30 @@ class _Reader:
             )
         return Copies(solid, self.checked(word, lambda: COPIES[word](*values, int(count))))
 
-    def switch(self, parts: list[Token]) -> tuple[str, Any]:
-        return _flag(parts[0]), True
+    def switch(self, parts: list[Token]) -> Flag:
+        return Flag(tuple(parts), True)
 
-    def value(self, parts: list[Token]) -> tuple[str, Any]:
+    def value(self, parts: list[Token]) -> Flag:
         flag, value = parts
-        found = _plain(value)
+        found = plain(value)
         if isinstance(found, tuple):
             if len(found) > 1:
-                raise self.wrong(f"-{_flag(flag)} takes one number, or several in [ ]", value)
+                raise self.wrong(f"{flag} takes one number, or several in [ ]", value)
             (found,) = found
-        return _flag(flag), found
+        return Flag(tuple(parts), found)
 
-    def values(self, parts: list[Token]) -> tuple[str, Any]:
-        found = [_plain(part) for part in parts[1:]]
-        return _flag(parts[0]), found[0] if isinstance(found[0], tuple) else tuple(found)
+    def values(self, parts: list[Token]) -> Flag:
+        found = [plain(part) for part in parts[1:]]
+        return Flag(tuple(parts), found[0] if isinstance(found[0], tuple) else tuple(found))
+
+    def options(self, flags: list[Flag], known: Mapping[str, Known], where: str) -> Options:
+        """What flags set; those that are no options are noted as ignored."""
+
+        def ignore(flag: Flag) -> None:
+            line = self.source.line(flag.tokens[0].start_pos or 0)
+            self.ignored.append(Ignored(f"{flag} of {where}", line))
+
+        return options(flags, known, where, ignore, self.wrong)
 
     def lists(self, word: Token, parts: list[Token]) -> list[Vector]:
         """The numbers in a primitive's or a move's parentheses, checked for their count."""
@@ -329,22 +339,6 @@ def _renamed(primitive: Solid, name: str) -> Solid:
     result = copy.copy(primitive)
     object.__setattr__(result, "name", name)
     return result
-
-
-def _flag(token: Token) -> str:
-    return token[1:].strip()
-
-
-def _options(flags: list[tuple[str, Any]]) -> Options:
-    return MappingProxyType(dict(flags))
-
-
-def _plain(token: Token) -> Any:
-    """A flag's word, or its numbers as a tuple, whole where they are written so."""
-    if token.type != "NUMBERS":
-        return str(token)
-    texts = "".join(token.split()).split(",")
-    return tuple(int(t) if re.fullmatch(r"-?\d{1,18}", t) else float(t) for t in texts)
 
 
 def _cone(a: Vector, ra: Vector, b: Vector, rb: Vector) -> Primitive:

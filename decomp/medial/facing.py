@@ -10,7 +10,7 @@ threshold.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite, pi, radians
+from math import pi, radians
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +20,7 @@ from decomp.medial.facing_sheets import facing_sheets
 from decomp.medial.level_cut import LevelCut
 from decomp.medial.result import Skeleton
 from decomp.vectors import Array, Ints, cross, norm
+from decomp.vectors import number as finite
 
 FACING = 120.0
 """The least angle between feet, in degrees, by default."""
@@ -87,11 +88,14 @@ def mid_surface(skeleton: Skeleton, facing: float = FACING) -> MidSurface:
         facing: in degrees, from 0 to less than 180.
 
     Raises:
-        InputError: the angle is out of its range.
+        InputError: the skeleton is none, or the angle is out of its range.
         GeometryError: a sheet cannot be followed; says where.
     """
-    if not isfinite(facing) or not 0 <= facing < 180:
-        raise InputError(f"facing must be an angle from 0 to less than 180 degrees, got {facing!r}")
+    if not isinstance(skeleton, Skeleton):
+        raise InputError(f"a mid-surface is that of a skeleton, got {skeleton!r}")
+    facing = finite(facing, "facing")
+    if not 0 <= facing < 180:
+        raise InputError(f"facing must be an angle from 0 to less than 180 degrees, got {facing:g}")
     mesh = skeleton.complex
     surfaces = facing_sheets(skeleton)
     triangles, regions, between = [], [], []

@@ -21,7 +21,7 @@ from decomp.sites.occupancy_leaves import OUTSIDE
 from decomp.sites.site import Site, sites_of
 from decomp.sites.site_boxes import bounds_of
 from decomp.sites.site_table import RegionSites, region_sites
-from decomp.vectors import Array, Bools, Ints
+from decomp.vectors import Array, Bools, Ints, reals
 
 BLOCK = 1 << 17
 
@@ -216,8 +216,8 @@ class SiteIndex:
 def _checked(points: ArrayLike) -> Array:
     """Return points as an array (n, 3) of finite floats, without a copy where that can be."""
     try:
-        given = np.ascontiguousarray(points, dtype=np.float64)
-    except (TypeError, ValueError):
+        given = np.ascontiguousarray(reals(points), dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
         raise InputError("points must be an array of numbers of shape (n, 3)") from None
     if given.shape == (0,):
         return np.empty((0, 3))

@@ -15,10 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
+from decomp.arguments import called, whole
 from decomp.compute import skeleton
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
+from decomp.paths import path_of
 from decomp.tetra.check_cells import KnownCells, known_cells
 from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings
@@ -27,7 +29,7 @@ from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
 from decomp.tetra.quality import volumes
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Ints, place
+from decomp.vectors import Ints, place, positive
 
 EPSILON = 2e-3
 """Default of what meshes may leave their cells by, relative to the region's diagonal."""
@@ -78,9 +80,13 @@ def check(
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
+        InputError: an option is of a wrong kind or out of its range.
         FileError: a file cannot be read.
         GeometryError: the model's geometry or skeleton cannot be computed.
     """
+    epsilon, volume_error = positive(epsilon, "epsilon"), positive(volume_error, "volume_error")
+    unprojected = whole(unprojected, "unprojected", 0)
+    called(progress, "progress")
     tell = progress or (lambda what, done: None)
     tell("reading the mesh", 0.0)
     read = _as_read(mesh)
@@ -112,7 +118,7 @@ def _as_read(mesh: TetMesh | ReadMesh | str | Path) -> ReadMesh:
     if isinstance(mesh, ReadMesh):
         return mesh
     if not isinstance(mesh, TetMesh):
-        return read_msh(mesh)
+        return read_msh(path_of(mesh, "the mesh's file"))
     names = {(group.dimension, group.tag): group.name for group in mesh.groups}
     return ReadMesh(
         mesh.points, mesh.tets, mesh.tet_tags, mesh.triangles, mesh.triangle_tags, names

@@ -13,9 +13,8 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -24,6 +23,7 @@ import numpy as np
 from decomp.errors import DecompError, FileError, GeometryError, InputError
 from decomp.files.targets import reason
 from decomp.tetra.worker import FULL, MISSING, SPENT
+from decomp.tetra.workplace import ROOM, sweep, workplace
 from decomp.vectors import Array, Ints
 
 WORKER = Path(__file__).with_name("worker.py")
@@ -32,7 +32,6 @@ EDGE_IN_EPSILONS = 6.0
 ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
 PATIENCE = 4.0
 """By the clock, work may take so many times as long as on a machine with nothing else to do."""
-ROOM = "set TMPDIR to a directory with room"
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
@@ -235,8 +234,9 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
     """
     packed = io.BytesIO()
     np.savez(packed, **arrays)  # type: ignore[arg-type]
-    with _directory() as directory:
-        source, target = Path(directory) / "in.npz", Path(directory) / "out.npz"
+    sweep()
+    with workplace() as directory:
+        source, target = directory / "in.npz", directory / "out.npz"
         try:
             source.write_bytes(packed.getvalue())
         except OSError as error:
@@ -244,17 +244,21 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
         process = subprocess.Popen(
             [sys.executable, "-P", str(WORKER), str(source), str(target), str(limit.busy)],
             cwd=directory,
-            stdin=subprocess.DEVNULL,
+            stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             start_new_session=True,
         )
+        # it ends when this pipe does; `communicate` would close it at once
+        lifeline, process.stdin = process.stdin, None
         try:
             _, errors = process.communicate(timeout=limit.clock)
         except subprocess.TimeoutExpired:
             raise MeshingError(f"did not end within {limit.clock:g} s") from None
         finally:
             _kill(process)
+            if lifeline is not None:
+                lifeline.close()
         if process.returncode == MISSING:
             raise InputError(
                 f"{errors.decode(errors='replace').strip()}: pip install pytetwild==0.4.2"
@@ -268,25 +272,8 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
         return _result(target)
 
 
-@contextlib.contextmanager
-def _directory() -> Iterator[str]:
-    """A directory that is gone afterwards.
-
-    Where TMPDIR names one that cannot be used, Python would take another without a word.
-    """
-    place = os.environ.get("TMPDIR") or None
-    try:
-        made = tempfile.TemporaryDirectory(prefix="decomp-", dir=place)
-    except OSError as error:
-        raise FileError(
-            f"no temporary directory can be made here: {reason(error)}; {ROOM}", place
-        ) from None
-    with made as directory:
-        yield directory
-
-
-def _no_room(directory: str, why: str) -> FileError:
-    return FileError(f"TetWild's files cannot be written: {why}; {ROOM}", Path(directory).parent)
+def _no_room(directory: Path, why: str) -> FileError:
+    return FileError(f"TetWild's files cannot be written: {why}; {ROOM}", directory.parent)
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

@@ -13,7 +13,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -38,8 +38,11 @@ def checked_fields(names: Sequence[str]) -> tuple[str, ...]:
     """Names of fields, each once.
 
     Raises:
-        InputError: one is unknown.
+        InputError: they are no list, or one is unknown.
     """
+    if isinstance(names, str) or not isinstance(names, Iterable):
+        raise InputError(f"fields must be a list of names, such as ['distance'], got {names!r}")
+    names = tuple(names)
     for name in names:
         if name not in FIELDS:
             raise InputError(f"{name!r} is no field; there are {', '.join(FIELDS)}")

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from decomp.complex.model import PatchKind
-from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import OUTSIDE, CellMap
 from decomp.tetra.layout import Layout
@@ -31,7 +27,7 @@ def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
                 (region.name,),
                 cell.faces,
                 cell.volume,
-                option_number(region.options, "maxh"),
+                region.options.get("maxh"),
             )
         )
     return found
@@ -47,7 +43,7 @@ def region_groups(geometry: Geometry) -> list[Group]:
             (region.name,),
             (),
             geometry.regions[number].volume,
-            option_number(region.options, "maxh"),
+            region.options.get("maxh"),
         )
         for number, region in enumerate(geometry.model.regions)
     ]
@@ -82,8 +78,8 @@ def surface_groups(
         if sides not in of_face:
             faces = [geometry.regions[r].faces[f] for r, f in sides]
             full = [f"{names[r]}/{face.name}" for (r, _), face in zip(sides, faces, strict=True)]
-            numbers = [option_number(face.options, "bc") for face in faces]
-            bc = next((int(n) for n in numbers if n is not None), None)
+            numbers = [face.options.get("bc") for face in faces]
+            bc = next((number for number in numbers if number is not None), None)
             kind = GroupKind.FACE if len(sides) == 1 else GroupKind.INTERFACE
             of_face[sides] = len(groups) + 1
             groups.append(
@@ -123,19 +119,3 @@ def _sheet_groups(
         name = f"{region}/{one}|{two}"
         groups.append(Group(GroupKind.SHEET, len(groups) + 1, name, (region,)))
     tags[rows] = first + 1 + which.reshape(-1)
-
-
-def option_number(options: Mapping[str, Any], key: str) -> Any:
-    """A number that a file gave, None where it gave none.
-
-    Raises:
-        InputError: it gave something else.
-    """
-    value = options.get(key)
-    if value is None:
-        return None
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"option {key} must be a number, got {value!r}") from None
-    return int(number) if key == "bc" else number

@@ -12,14 +12,15 @@ from math import pi, sqrt
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.arguments import whole
 from decomp.carriers import Carrier
 from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.features import thickness
-from decomp.tetra.groups import option_number
 from decomp.tetra.layout import samples
 from decomp.tetra.surface import MeshSurface
-from decomp.vectors import Array, cross, norm
+from decomp.vectors import Array, cross, norm, positive
+from decomp.vectors import number as finite
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
@@ -51,7 +52,7 @@ class Wanted:
         per_circle: edges around a full circle.
 
     Raises:
-        InputError: one is out of its range.
+        InputError: one is no number, or out of its range.
     """
 
     size: float | None = None
@@ -59,12 +60,18 @@ class Wanted:
     per_circle: float | None = None
 
     def __post_init__(self) -> None:
-        if self.size is not None and not 0 < self.size < float("inf"):
-            raise InputError(f"size must be a positive length, got {self.size!r}")
-        if self.layers is not None and not 1 <= self.layers <= 100:
-            raise InputError(f"layers must be from 1 to 100, got {self.layers!r}")
-        if self.per_circle is not None and not 3 <= self.per_circle <= 10000:
-            raise InputError(f"elements per circle must be from 3, got {self.per_circle!r}")
+        if self.size is not None:
+            object.__setattr__(self, "size", positive(self.size, "size"))
+        if self.layers is not None:
+            layers = whole(self.layers, "layers")
+            if layers > 100:
+                raise InputError(f"layers must be from 1 to 100, got {layers}")
+            object.__setattr__(self, "layers", layers)
+        if self.per_circle is not None:
+            count = finite(self.per_circle, "elements per circle")
+            if not 3 <= count <= 10000:
+                raise InputError(f"elements per circle must be from 3 to 10000, got {count:g}")
+            object.__setattr__(self, "per_circle", count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +98,7 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
     """The largest edge length in each region: the user's, the file's `maxh`, or a default.
 
     Raises:
-        InputError: a length is not positive, or the model fits into it.
+        InputError: the model fits into the length asked for.
     """
     if wanted.size is not None and wanted.size >= geometry.diagonal:
         raise InputError(
@@ -102,9 +109,7 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
     for boundary, region in zip(geometry.regions, geometry.model.regions, strict=True):
         default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)
         length = default if wanted.size is None else wanted.size
-        given = option_number(region.options, "maxh")
-        if given is not None and given <= 0:
-            raise InputError(f"maxh of region {region.name} must be positive, got {given}")
+        given = region.options.get("maxh")
         found.append(length if given is None else min(length, given))
     return np.array(found)
 
@@ -160,8 +165,8 @@ def _curved(
         share = (area / np.bincount(which, minlength=len(area)))[which]
         lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
         change, total = change + lost, total + abs(lost)
-        limit = option_number(face.options, "maxh")
-        if limit is not None and limit > 0:
+        limit = face.options.get("maxh")
+        if limit is not None:
             own = np.minimum(own, limit)
         found.append((some, own, bend))
     content = abs(region.boundary.volume)

@@ -2,21 +2,18 @@
 
 It is a script of its own, run by path and without the rest of the package: fTetWild may crash, hang
 or end the process, and it starts sooner this way. Its extension module is loaded without its
-package, whose import takes longer than some meshes because it needs pyvista.
+package, whose import takes longer than some meshes because it needs pyvista. Its standard input is
+a pipe whose end tells it to end too (`decomp/tetra/lifeline.py`).
 """
 
 from __future__ import annotations
 
-import ctypes
 import importlib.util
 import io
 import math
-import signal
 import sys
 from pathlib import Path
 from types import ModuleType
-
-import numpy as np
 
 VERSION = "0.4.2"
 """Of pytetwild, whose extension's arguments are given by place."""
@@ -26,7 +23,7 @@ FULL = 4
 """Exit code: the result cannot be written; stderr says why."""
 SPENT = 24
 """Signal that ends it when its seconds of computing are spent (SIGXCPU)."""
-PR_SET_PDEATHSIG = 1
+LIFELINE = Path(__file__).with_name("lifeline.py")
 
 
 def extension() -> ModuleType:
@@ -39,18 +36,23 @@ def extension() -> ModuleType:
     if package is None or package.origin is None:
         raise ImportError("pytetwild is not installed")
     for file in sorted(Path(package.origin).parent.glob("PyfTetWildWrapper*")):
-        spec = importlib.util.spec_from_file_location("PyfTetWildWrapper", file)
-        if file.suffix in (".so", ".pyd") and spec is not None and spec.loader is not None:
-            module = importlib.util.module_from_spec(spec)
-            spec.loader.exec_module(module)
-            return module
+        if file.suffix in (".so", ".pyd"):
+            return loaded("PyfTetWildWrapper", file)
     raise ImportError("pytetwild has no extension module")
 
 
-def die_with_parent() -> None:
-    """Ask the system to end this process when its parent ends in whatever way."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+def loaded(name: str, file: Path) -> ModuleType:
+    """The module in a file.
+
+    Raises:
+        ImportError: the file holds none.
+    """
+    spec = importlib.util.spec_from_file_location(name, file)
+    if spec is None or spec.loader is None:
+        raise ImportError(f"{file} is no module")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def limit_work(seconds: float) -> None:
@@ -63,8 +65,11 @@ def limit_work(seconds: float) -> None:
 
 
 def main(source: str, target: str, seconds: str) -> int:
-    die_with_parent()
+    loaded("lifeline", LIFELINE).die_with_parent()
     limit_work(float(seconds))
+    # only now: whatever takes time comes after the watch has begun
+    import numpy as np
+
     try:
         wrapper = extension()
     except ImportError as error:

@@ -51,6 +51,7 @@ def encoded(mesh: TetMesh, found: Report) -> bytes:
         _table(("cell", "tetrahedra", "volume", "off the skeleton's"), cells),
         "<h2>Surfaces</h2>",
         _table(("surface", "triangles"), surfaces),
+        *_ignored(found),
         "<h2>Times</h2>",
         _table(("stage", "seconds"), stages),
     ]
@@ -85,6 +86,12 @@ def histogram(values: Array, low: float, high: float, what: str) -> str:
 
 def _percent(error: float | None) -> str:
     return "" if error is None else f"{100 * error:+.3f} %"
+
+
+def _ignored(found: Report) -> list[str]:
+    """What was left out of the model's file, if anything was."""
+    rows = [(each.line, each.statement) for each in found.ignored]
+    return ["<h2>Ignored statements</h2>", _table(("line", "statement"), rows)] if rows else []
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

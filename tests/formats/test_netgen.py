@@ -20,6 +20,7 @@ from decomp.csg.primitives import (
 from decomp.csg.solid import Complement, Copies, Intersection, Labelled, Solid, Transformed, Union
 from decomp.errors import FileError, ParseError, UnsupportedError
 from decomp.formats import loads
+from decomp.formats.native import dumps
 
 
 def read(body: str) -> Model:
@@ -126,7 +127,7 @@ def test_shared_solids_are_shared_nodes() -> None:
 def test_flags_and_options() -> None:
     model = read(
         "solid s = sphere (0,0,0; 1) -bc = 1 -maxh=2;\n"
-        "tlo s -maxh=0.4 -bc=2 -col=[1, 0.5, -0] -material=copper -transparent -l=[a, b];"
+        "tlo s -maxh=0.4 -bc=2 -col=[1, 0.5, -0] -material=copper -transparent -layer=2;"
     )
     (region,) = model.regions
     assert isinstance(region.solid, Labelled)
@@ -140,8 +141,51 @@ def test_flags_and_options() -> None:
         "col": (1, 0.5, 0),
         "material": "copper",
         "transparent": True,
-        "l": ("a", "b"),
+        "layer": 2,
     }
+    assert model.ignored == ()
+    again = loads(dumps(model), "json")
+    assert dict(again.regions[0].options) == dict(region.options)
+
+
+def test_flags_that_are_no_options_are_ignored_and_told_of() -> None:
+    """Those that Netgen knows with a value for each face too."""
+    model = read(
+        "solid s = sphere (0,0,0; 1) -bc=[1, 2]\n -bcname=[a, b] -material=tin -maxh=1;\n"
+        "tlo s -l=[a, b]\n -maxH=2\n - foo;"
+    )
+    (region,) = model.regions
+    assert dict(region.solid.options) == {"maxh": 1}  # type: ignore[attr-defined]
+    assert dict(region.options) == {}
+    assert [(each.statement, each.line) for each in model.ignored] == [
+        ("-bc=[1, 2] of solid s", 2),
+        ("-bcname=[a, b] of solid s", 3),
+        ("-material=tin of solid s", 3),
+        ("-l=[a, b] of tlo s", 4),
+        ("-maxH=2 of tlo s", 5),
+        ("-foo of tlo s", 6),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("flag", "said"),
+    [
+        ("-maxh=-1", "option maxh of tlo s must be a length above zero, got -1"),
+        ("-maxh=0", "must be a length above zero, got 0"),
+        ("-maxh=fine", "must be a length above zero, got 'fine'"),
+        ("-maxh", "must be a length above zero, got True"),
+        ("-maxh=[1,2]", "must be a length above zero, got (1, 2)"),
+        ("-bc=1.5", "must be a whole number, got 1.5"),
+        ("-material=3", "must be a text, got 3"),
+        ("-col=[1,2]", "must be three numbers, got (1, 2)"),
+        ("-transparent=1", "must be True or False, got 1"),
+    ],
+)
+def test_wrong_values_of_flags(flag: str, said: str) -> None:
+    with pytest.raises(ParseError) as caught:
+        read(f"solid s = sphere (0,0,0; 1);\ntlo s -layer=1\n  {flag};")
+    assert said in str(caught.value)
+    assert (caught.value.line, caught.value.column) == (4, 3)
 
 
 def test_translate() -> None:

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from decomp.cli.stages import Stages
+from decomp.csg.model import Ignored
 from decomp.tetra.report import as_json, as_text, report
+from decomp.view.report_page import encoded
 from tests.mesh_output.shapes import bar, cube, quadratic
 
 
@@ -46,6 +48,16 @@ def test_as_text() -> None:
     assert text[4] == "  surfaces: 4 faces, 1 interface, 1 sheet"
     assert "  cell left/cell-1: left.back, a, b, c" in text
     assert text[-1] == "  2.5 s: TetWild 2.5"
+
+
+def test_ignored_statements_are_told_of() -> None:
+    found = report(bar(), ignored=[Ignored("point (1,1,1)", 4)])
+    assert as_text(found)[-1] == "  ignored line 4: point (1,1,1)"
+    assert list(as_json(found)["ignored"]) == [{"statement": "point (1,1,1)", "line": 4}]
+    page = encoded(bar(), found).decode()
+    assert "<h2>Ignored statements</h2>" in page
+    assert "<td>4</td><td>point (1,1,1)</td>" in page
+    assert "Ignored" not in encoded(bar(), report(bar())).decode()
 
 
 def test_curved_volumes() -> None:

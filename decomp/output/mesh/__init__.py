@@ -61,11 +61,13 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
         InputError: the suffix or the version is unknown.
         FileError: the file cannot be written.
     """
+    from decomp.arguments import switch
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
 
     suffix = suffix_of(path)
     if version not in VERSIONS:
         raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(VERSIONS)}")
+    switch(text, "text")
     check_outputs([path], [mesh.source])
     write_whole(path, encoded(mesh, suffix, text=text, version=version))
