@@ -8,11 +8,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from decomp.plain import plain
+
 
 class DecompError(Exception):
-    """Base of every error that `decomp` raises on purpose."""
+    """Base of every error that `decomp` raises on purpose.
+
+    Its text is one line: names out of files are shown with their control characters escaped.
+    """
 
     exit_code = 1
+
+    def __str__(self) -> str:
+        return plain(super().__str__())
 
 
 class InputError(DecompError):

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
+from decomp.cli.said import say
 from decomp.errors import DecompError
 
 EXAMPLES = """\
@@ -63,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         options.run(options)
     except DecompError as error:
-        print(f"decomp: error: {error}", file=sys.stderr)
+        say([f"decomp: error: {error}"], to_errors=True)
         return error.exit_code
     except KeyboardInterrupt:
         print("decomp: interrupted", file=sys.stderr)

@@ -15,6 +15,7 @@ from decomp import carriers
 from decomp.carriers import Carrier
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
+from decomp.magnitude import check_length
 from decomp.vectors import Array, direction, frozen, norm, number, place, positive, vector
 
 HalfSpaces = Iterator[tuple[str, Carrier]]
@@ -61,6 +62,7 @@ class Block(Primitive):
         low, extent = vector(corner, "block corner"), vector(size, "block size")
         if (extent <= 0).any():
             raise InputError(f"block size must be positive along each axis, got {place(extent)}")
+        check_length(float(extent.min()), "block size")
         _set(self, name, corner=low, size=extent)
 
     @classmethod
@@ -351,6 +353,8 @@ def _radius(value: float, what: str) -> float:
     result = number(value, what)
     if result < 0:
         raise InputError(f"{what} must not be negative, got {result:g}")
+    if result > 0:
+        check_length(result, what)
     return result
 
 

@@ -16,12 +16,14 @@ from decomp.formats.foreign import advice
 if TYPE_CHECKING:
     from decomp.csg.model import Model
     from decomp.csg.solid import Solid
+    from decomp.formats.source import Source
 
 Format = Literal["geo", "csg", "json"]
 """Netgen, OpenSCAD, native."""
 
 FORMATS: tuple[Format, ...] = get_args(Format)
-MAX_BYTES = 200_000_000
+MAX_BYTES = 64_000_000
+"""Of a model file; read as JSON, it takes up to twenty times as much memory."""
 EXPECTED = "expected Netgen .geo (algebraic3d), OpenSCAD .csg or decomp .json"
 
 
@@ -40,7 +42,9 @@ def load(path: str | Path) -> Model:
     text = _text(data, file, form)
     if not text.strip():
         raise ParseError(f"the file is empty; {EXPECTED}", file)
-    return loads(text, form or _sniffed(text, file), file.stem, file)
+    # bytes of a file's name that are no UTF-8 stand for themselves in no text
+    name = os.fsencode(file.stem).decode("utf-8", "replace")
+    return loads(text, form or _sniffed(text, file), name, file)
 
 
 def loads(text: str, form: Format, name: str = "model", path: str | Path | None = None) -> Model:
@@ -52,6 +56,15 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
     from decomp.formats.source import Source
 
     source = Source(text.replace("\r\n", "\n").replace("\r", "\n"), path)
+    try:
+        return _read(source, form, name)
+    except FileError:
+        raise
+    except InputError as error:  # of the model as a whole, such as two regions of one name
+        raise ParseError(str(error), path) from None
+
+
+def _read(source: Source, form: Format, name: str) -> Model:
     match form:
         case "geo":
             from decomp.formats import netgen

@@ -8,9 +8,10 @@ from math import isfinite
 from types import MappingProxyType
 from typing import Any
 
-from decomp.csg.solid import Options, checked_name
+from decomp.csg.solid import Options, checked_name, checked_text
 from decomp.errors import InputError
 from decomp.formats.native_schema import DEEPEST_OPTION, KNOWN
+from decomp.magnitude import check_magnitude
 from decomp.vectors import Array, frozen
 
 
@@ -47,7 +48,7 @@ class Item:
         value = self.get(key)
         if not isinstance(value, str):
             raise InputError(f"{self.place(key)} must be a text, not {shown(value)}")
-        return value
+        return checked_text(value, self.place(key))
 
     def kind(self) -> str:
         """The type of a node."""
@@ -60,7 +61,12 @@ class Item:
     def name(self) -> str | None:
         """The name of a node, if it has one."""
         value = self.value.get("name")
-        return None if value is None else checked_name(self.text("name"))
+        if value is None:
+            return None
+        try:
+            return checked_name(self.text("name"))
+        except InputError as error:
+            raise InputError(f"{self.where}: {error}") from None
 
     def items(self, key: str) -> list[Any]:
         """The list of a key."""
@@ -82,7 +88,10 @@ class Item:
         """The options of a node or region."""
         item = Item(self.value.get("options", {}), self.place("options"))
         return MappingProxyType(
-            {key: an_option(each, item.place(key)) for key, each in item.value.items()}
+            {
+                checked_text(key, f"a key of {item.where}"): an_option(each, item.place(key))
+                for key, each in item.value.items()
+            }
         )
 
 
@@ -101,15 +110,14 @@ def a_whole_number(value: Any, where: str) -> int:
 
 
 def a_number(value: Any, where: str) -> float:
-    """A value that must be a finite number."""
+    """A value that must be a finite number, and not too large."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"{where} must be a number, not {shown(value)}")
     try:
         result = float(value)
     except OverflowError:
         result = float("inf")
-    if not isfinite(result):
-        raise InputError(f"{where} must be finite")
+    check_magnitude(result, where)
     return result
 
 
@@ -128,7 +136,12 @@ def an_option(value: Any, where: str, depth: int = 0) -> Any:
     if isinstance(value, list):
         return tuple(an_option(each, where, depth + 1) for each in value)
     if isinstance(value, dict):
-        return {key: an_option(each, where, depth + 1) for key, each in value.items()}
+        return {
+            checked_text(key, f"a key of {where}"): an_option(each, where, depth + 1)
+            for key, each in value.items()
+        }
+    if isinstance(value, str):
+        return checked_text(value, where)
     if isinstance(value, float) and not isfinite(value):
         raise InputError(f"{where} must be finite")
     return value

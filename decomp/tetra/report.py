@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from decomp.csg.model import EMPTY, Ignored
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.tetra.quality import dihedral_angles, inverted, radius_ratios, volumes
 from decomp.vectors import Ints
@@ -87,6 +88,7 @@ class Report:
         unprojected: nodes that are not on their exact surfaces.
         bridging: tetrahedra with all four corners on the boundary of a region.
         stages: what was done, and for how many seconds.
+        ignored: statements of the model's file, and regions without interior.
     """
 
     model: str
@@ -101,12 +103,14 @@ class Report:
     unprojected: int
     bridging: int
     stages: tuple[tuple[str, float], ...]
+    ignored: tuple[Ignored, ...] = ()
 
 
 def report(
     mesh: TetMesh,
     exact: Mapping[str, float] | None = None,
     stages: Sequence[tuple[str, float]] = (),
+    ignored: Sequence[Ignored] = (),
 ) -> Report:
     """Measure a mesh.
 
@@ -114,6 +118,7 @@ def report(
         mesh: to measure.
         exact: volumes of regions by name, where its groups do not know them.
         stages: what was done to make it, and for how many seconds.
+        ignored: what the model's file says that is not in it.
     """
     contents = volumes(mesh.points, mesh.tets)
     solids = [group for group in mesh.groups if group.dimension == 3]
@@ -147,6 +152,7 @@ def report(
         len(mesh.unprojected),
         _bridging(mesh),
         tuple(stages),
+        tuple(ignored),
     )
 
 
@@ -249,6 +255,7 @@ def as_text(found: Report) -> list[str]:
         for cell in found.cells
         if "+".join(cell.faces) != cell.name.removeprefix(f"{cell.region}/")
     ]
+    lines += [f"  ignored: {each}" for each in found.ignored if EMPTY in each.statement]
     if found.stages:
         lines.append("  " + _times(found.stages))
     return lines

@@ -245,9 +245,14 @@ WRONG = {
         "algebraic3d\nsolid a = sphere (0,0,0; 1);\nsolid a = sphere (0,0,0; 2);",
         3,
         7,
-        "'a' is defined a second time",
+        "defined in line 2, and with another body in line 3",
     ),
-    "two tlos": ("algebraic3d\nsolid a = sphere (0,0,0; 1);\ntlo a;tlo a;", 3, 11, "tlo already"),
+    "two tlos": (
+        "algebraic3d\nsolid a = sphere (0,0,0; 1);\ntlo a;tlo a -maxh=1;",
+        3,
+        11,
+        "a tlo in line 3, and with other flags",
+    ),
     "negative radius": (
         "algebraic3d\nsolid a = sphere (0,0,0; -1);",
         2,
