@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from decomp.errors import FileError
+from decomp.magnitude import LARGEST
 from decomp.tetra.msh_sections import Numbers, Sections, sections
 from decomp.vectors import Array, Ints
 
@@ -79,6 +80,8 @@ def read_msh(path: str | Path) -> ReadMesh:
     if not np.isin(used, tags).all():
         raise FileError("there are elements with nodes that it does not define", path)
     place = order[np.searchsorted(tags[order], used)]
+    if not (np.abs(points[place]) <= LARGEST).all():
+        raise FileError("a node's coordinates are not finite, or too large to compute with", path)
     names = {(2, int(tag)): "" for tag in np.unique(triangle_tags) if tag > 0}
     names |= {(3, int(tag)): "" for tag in np.unique(tet_tags) if tag > 0}
     names |= {key: name for key, name in parts.names.items() if key[0] in (2, 3)}
@@ -155,13 +158,15 @@ def _read_22(parts: Sections) -> tuple[Ints, Array, list[_Block]]:
 
 def _runs(numbers: Numbers, count: int, parts: Sections) -> list[_Block]:
     """Elements of format 2.2, all of one type together."""
-    words = numbers.rest.astype(np.int64)
+    words = numbers.rest
     found: dict[int, list[_Block]] = {}
     at = done = 0
     while done < count:
         if at + 3 > len(words):
             raise FileError("section $Elements ends too early", parts.path)
         kind, tags = int(words[at + 1]), int(words[at + 2])
+        if tags < 0:
+            raise FileError(f"an element has {tags} tags", parts.path)
         width = 3 + tags + _width(kind, parts)
         most = min(count - done, (len(words) - at) // width)
         if most == 0:
