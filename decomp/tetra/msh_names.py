@@ -18,7 +18,7 @@ LONGEST = 240
 CODE = "x[0-9a-f]{2}|u[0-9a-f]{4}"
 UNFIT = re.compile(rf'["\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff]|\\(?={CODE})')
 ESCAPED = re.compile(rf"\\(?:{CODE})")
-LINE = re.compile(rb'^\s*(\d+)\s+(-?\d+)\s+"(.*)"\s*$')
+LINE = re.compile(rb'^\s*(\d)\s+(-?\d{1,10})\s+"(.*)"\s*$')
 
 Key = tuple[int, int]
 """Dimension and tag of a group."""
