@@ -17,6 +17,8 @@ LARGEST: Final = 1e50
 """Coordinates and lengths are at most this."""
 SMALLEST: Final = 1e-50
 """Lengths above zero are at least this."""
+RESOLUTION: Final = 1e-15
+"""Of coordinates; a radius below this part of them is no radius."""
 FARTHEST: Final = 1e13
 """So many diagonals a model may be away from the origin: its coordinates have 16 digits."""
 

@@ -7,7 +7,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from decomp.carriers import Carrier
+from decomp.carriers import Carrier, Cylinder, Sphere, Torus
+from decomp.carriers.axial import nearest_to_origin
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import FALSE, TRUE, inverted
 from decomp.csg.solid import (
@@ -24,9 +25,9 @@ from decomp.csg.solid import (
     no_options,
 )
 from decomp.errors import InputError
-from decomp.magnitude import check_length, check_magnitude
+from decomp.magnitude import RESOLUTION, check_length, check_magnitude
 from decomp.similarity import IDENTITY, Similarity
-from decomp.vectors import Array
+from decomp.vectors import Array, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,8 +191,19 @@ def _checked(carrier: Carrier, name: str) -> Carrier:
     """A placed carrier, refused where its place or its radii are out of range."""
     data = carrier.packed()
     check_magnitude(data, f"the place of {name}")
-    if carrier.kind in ("sphere", "cylinder", "torus"):
-        check_length(float(data[6]), f"the radius of {name}")
-    if carrier.kind == "torus":
-        check_length(float(data[7]), f"the minor radius of {name}")
+    match carrier:
+        case Sphere(centre=place, radius=least):
+            reach = float(norm(place))
+        case Cylinder(point=point, axis=axis, radius=least):
+            reach = float(norm(nearest_to_origin(point, axis)))
+        case Torus(centre=place, major=major, minor=least):
+            reach = float(norm(place)) + major
+        case _:
+            return carrier
+    check_length(least, f"the radius of {name}")
+    if least < RESOLUTION * reach:
+        raise InputError(
+            f"{name} has a radius of {least:g}, which is lost in the digits of its coordinates "
+            f"({reach:.3g}): make it larger, or leave it out"
+        )
     return carrier
