@@ -93,7 +93,9 @@ def from_matrix(matrix: ArrayLike) -> Similarity:
     """
     try:
         m = np.array(matrix, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
+    except OverflowError:
+        raise InputError("transform has an entry that is too large to compute with") from None
+    except (TypeError, ValueError):
         raise InputError(f"transform must be a 4 x 4 matrix, got {matrix!r}") from None
     if m.shape not in ((4, 4), (3, 4)):
         raise InputError(f"transform must be a 4 x 4 matrix, got shape {m.shape}")

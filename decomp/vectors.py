@@ -30,7 +30,9 @@ def vector(values: ArrayLike, what: str) -> Array:
     """
     try:
         array = frozen(values)
-    except (TypeError, ValueError, OverflowError):
+    except OverflowError:
+        raise InputError(f"{what} is too large to compute with") from None
+    except (TypeError, ValueError):
         raise InputError(f"{what} must be three numbers, got {values!r}") from None
     if array.shape != (3,):
         raise InputError(f"{what} must be three numbers, got {values!r}")

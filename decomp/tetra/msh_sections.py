@@ -121,7 +121,7 @@ def sections(path: str | Path) -> Sections:
         data = Path(path).read_bytes()
     except OSError as error:
         raise FileError(f"cannot be read: {error.strerror or error}", path) from None
-    head = re.match(rb"\s*\$MeshFormat\s+([\d.]+)\s+([01])\s+(\d+)[ \t]*\r?\n", data)
+    head = re.match(rb"\s*\$MeshFormat\s+(\d+(?:\.\d+)?)\s+([01])\s+(\d+)[ \t]*\r?\n", data)
     if head is None:
         raise FileError("this is no .msh file: it does not begin with $MeshFormat", path)
     binary = head[2] == b"1"
