@@ -150,10 +150,11 @@ def _read_22(parts: Sections) -> tuple[Ints, Array, list[_Block]]:
         raise FileError("format 2.2 is read as text only: save it as text, or as 4.1", parts.path)
     count = numbers.one("i8")
     nodes = numbers.take("f8", 4 * count).reshape(count, 4)
+    tags = numbers.typed(nodes[:, 0], np.dtype(np.int64))
     numbers = parts.numbers("Elements")
     count = numbers.one("i8")
     blocks = [_with_several(block) for block in _runs(numbers, count, parts)]
-    return nodes[:, 0].astype(np.int64), nodes[:, 1:], blocks
+    return tags, nodes[:, 1:], blocks
 
 
 def _runs(numbers: Numbers, count: int, parts: Sections) -> list[_Block]:

@@ -50,11 +50,16 @@ class Numbers:
             stored = dtype.newbyteorder("S") if self._swapped else dtype
             found = np.frombuffer(self._body, stored, count, self._at).astype(dtype)
         else:
-            found = self._typed(self._words[self._at : end], dtype)
+            found = self.typed(self._words[self._at : end], dtype)
         self._at = end
         return found
 
-    def _typed(self, words: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
+    def typed(self, words: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
+        """Numbers read from text (n,), as another type.
+
+        Raises:
+            FileError: they are to be whole, and are not, or are too large for it.
+        """
         if (
             dtype.kind != "f"
             and not (
@@ -72,7 +77,7 @@ class Numbers:
     def rest(self) -> NDArray[np.int64]:
         """What is left of a section of text, (n,) whole numbers."""
         assert self._words is not None
-        return self._typed(self._words[self._at :], np.dtype(np.int64))
+        return self.typed(self._words[self._at :], np.dtype(np.int64))
 
 
 @dataclass(frozen=True, eq=False)
