@@ -9,20 +9,21 @@ import sys
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from benchmarks.fuzz import fuzz, meshes, originals
+from benchmarks.fuzz import fuzz, meshes, originals, within
 from decomp import Block, Cone, Cylinder, Geometry, HalfSpace, InfiniteCone, Sphere, Torus
 from decomp.cli.main import main
 from decomp.csg.counting import MOST_PRIMITIVES, refuse_too_many
 from decomp.csg.halfspaces import half_space_form
 from decomp.csg.model import Model, Region, model
 from decomp.csg.solid import Labelled, Solid, Union
-from decomp.errors import DecompError, EmptyRegionError, InputError, ParseError
+from decomp.errors import DecompError, EmptyRegionError, GeometryError, InputError, ParseError
 from decomp.formats import load, loads, save
 from decomp.magnitude import FARTHEST, LARGEST, SMALLEST
 
@@ -348,6 +349,22 @@ def test_no_warning_of_numpy_reaches_the_user(tmp_path: Path) -> None:
         assert run.returncode == 2
         assert run.stderr.startswith("decomp: error: ")
         assert run.stderr.count("\n") == 1
+
+
+def test_edges_are_not_followed_for_ever() -> None:
+    """A cone almost as flat as a plane, whose edges at one vertex go on along one and the same."""
+    text = """
+difference() {
+  multmatrix([[0, -1, 0, 10], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) {
+    cylinder(h = 4, r1 = 1e5, r2 = 6);
+  }
+  cube(size = [2, 30, 1], center = true);
+}
+intersection() { sphere(d = 5); cube([3, 3, 3]); }
+rotate_extrude() { multmatrix([[1, 0, 0, 30], [0, 1, 0, 2], [0, 0, 1, 0]]) { circle(r = 4); } }
+"""
+    with within(60), suppress(GeometryError):
+        Geometry(loads(text, "csg"))
 
 
 @pytest.mark.slow
