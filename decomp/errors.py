@@ -8,11 +8,26 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from decomp.plain import plain
+
+LONGEST = 1000
+"""Characters of an error that are shown."""
+
 
 class DecompError(Exception):
-    """Base of every error that `decomp` raises on purpose."""
+    """Base of every error that `decomp` raises on purpose.
+
+    Its text is one line of bounded length: names out of files are shown with their control
+    characters escaped, and very long ones in part.
+    """
 
     exit_code = 1
+
+    def __str__(self) -> str:
+        text = super().__str__()
+        if len(text) > LONGEST:  # a name or a value out of a file is that long
+            text = f"{text[: LONGEST - 300]} ... {text[-300:]}"
+        return plain(text)
 
 
 class InputError(DecompError):

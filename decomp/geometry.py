@@ -23,20 +23,25 @@ if TYPE_CHECKING:
 class Geometry:
     """Exact boundary and nearest-site queries of a model.
 
+    Regions without interior are left out: `model` is what is left, and its `ignored` names them.
+
     Args:
         source: a model, a solid, a dict of named solids, or the path of a model file.
 
     Raises:
         InputError: the source is none of these.
         FileError: the file cannot be read; its subclasses say where.
-        GeometryError: a region is empty, unbounded, overlaps another or touches itself.
+        GeometryError: all regions are empty, or one is unbounded, overlaps another or touches
+            itself.
     """
 
     def __init__(self, source: Model | Solid | dict[str, Solid] | str | Path) -> None:
         if isinstance(source, (str, Path)):
             source = load(source)
-        self.model: Model = source if isinstance(source, Model) else model(source)
-        self.boundaries: Boundaries = boundaries(self.model)
+        self.boundaries: Boundaries = boundaries(
+            source if isinstance(source, Model) else model(source)
+        )
+        self.model: Model = self.boundaries.model
 
     @property
     def regions(self) -> tuple[RegionBoundary, ...]:

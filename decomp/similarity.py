@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from decomp.errors import InputError
+from decomp.magnitude import check_length, check_magnitude
 from decomp.vectors import Array, direction, frozen, number, positive, vector
 
 
@@ -92,18 +93,20 @@ def from_matrix(matrix: ArrayLike) -> Similarity:
     """
     try:
         m = np.array(matrix, dtype=np.float64)
+    except OverflowError:
+        raise InputError("transform has an entry that is too large to compute with") from None
     except (TypeError, ValueError):
         raise InputError(f"transform must be a 4 x 4 matrix, got {matrix!r}") from None
     if m.shape not in ((4, 4), (3, 4)):
         raise InputError(f"transform must be a 4 x 4 matrix, got shape {m.shape}")
-    if not np.isfinite(m).all():
-        raise InputError("transform has entries that are not finite")
+    check_magnitude(m, "transform")
     if m.shape == (4, 4) and not np.array_equal(m[3], [0, 0, 0, 1]):
         raise InputError("transform is a projection: its last row is not 0 0 0 1")
     linear = m[:3, :3]
     scale = float(abs(np.linalg.det(linear))) ** (1 / 3)
     if scale == 0.0:
         raise InputError("transform flattens space: its determinant is 0")
+    check_length(scale, "scale factor of the transform")
     u, _, vt = np.linalg.svd(linear / scale)
     nearest = u @ vt
     # matrices in files carry about six digits, so an orthogonal one is off by 1e-6

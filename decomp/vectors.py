@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from decomp.errors import InputError
+from decomp.magnitude import check_length, check_magnitude
 
 Array: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
@@ -38,16 +39,17 @@ def vector(values: ArrayLike, what: str) -> Array:
     """Return three finite numbers as a read-only vector.
 
     Raises:
-        InputError: not three finite numbers; the message names `what`.
+        InputError: not three finite numbers, or too large ones; the message names `what`.
     """
     try:
         array = frozen(reals(values))
-    except (TypeError, ValueError, OverflowError):
+    except OverflowError:
+        raise InputError(f"{what} is too large to compute with") from None
+    except (TypeError, ValueError):
         raise InputError(f"{what} must be three numbers, got {values!r}") from None
     if array.shape != (3,):
         raise InputError(f"{what} must be three numbers, got {values!r}")
-    if not np.isfinite(array).all():
-        raise InputError(f"{what} must be finite, got {place(array)}")
+    check_magnitude(array, what)
     return array
 
 
@@ -55,12 +57,13 @@ def direction(values: ArrayLike, what: str) -> Array:
     """Return `values` scaled to unit length.
 
     Raises:
-        InputError: not three finite numbers, or all of them zero.
+        InputError: not three finite numbers, or all of them zero, or too small or large.
     """
     array = vector(values, what)
     scale = float(np.abs(array).max())
     if scale == 0.0:
         raise InputError(f"{what} must not be the zero vector")
+    check_length(scale, what)
     array = array / scale
     return frozen(array / np.linalg.norm(array))
 
@@ -69,7 +72,7 @@ def number(value: Any, what: str) -> float:
     """Return `value` as a finite float.
 
     Raises:
-        InputError: not a finite number.
+        InputError: not a finite number, or too large.
     """
     try:
         # no text, no True or False, of which Python would make numbers
@@ -77,12 +80,11 @@ def number(value: Any, what: str) -> float:
         if given.ndim:
             raise TypeError("these are several numbers")
         result = float(given)
-    except OverflowError:
-        raise InputError(f"{what} must be finite, got a number of too many digits") from None
     except (TypeError, ValueError):
         raise InputError(f"{what} must be a number, got {value!r}") from None
-    if not np.isfinite(result):
-        raise InputError(f"{what} must be finite, got {result}")
+    except OverflowError:  # a whole number beyond double precision
+        result = float("inf")
+    check_magnitude(result, what)
     return result
 
 
@@ -90,11 +92,12 @@ def positive(value: Any, what: str) -> float:
     """Return `value` as a finite float above zero.
 
     Raises:
-        InputError: not a finite number above zero.
+        InputError: not a finite number above zero, or too small or large.
     """
     result = number(value, what)
     if result <= 0.0:
         raise InputError(f"{what} must be positive, got {result:g}")
+    check_length(result, what)
     return result
 
 

@@ -107,11 +107,11 @@ REFUSED: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a union of one": (lambda: decomp.union(SOLID), "union takes a list of solids"),  # type: ignore[arg-type]
     "a model of a number": (lambda: decomp.model(3), "a model is made of"),  # type: ignore[arg-type]
-    "a model of unnamed solids": (lambda: decomp.model([SOLID]), "a model is made of"),  # type: ignore[list-item]
+    "a model of unnamed solids": (lambda: decomp.model([SOLID]), "is no region"),  # type: ignore[list-item]
     "a model of a name": (lambda: decomp.model("x.geo"), "a model is made of"),  # type: ignore[arg-type]
-    "a named number": (lambda: decomp.model({"a": 3}), "'a': 3 is no named solid"),  # type: ignore[dict-item]
-    "a name that is none": (lambda: decomp.model({3: SOLID}), "3: .* is no named solid"),  # type: ignore[dict-item]
-    "no tolerance": (lambda: decomp.skeleton(SOLID, tolerance=0), "above 0 and at most 0.1, got 0"),
+    "a named number": (lambda: decomp.model({"a": 3}), "region 'a' must be a solid, got 3"),  # type: ignore[dict-item]
+    "a name that is none": (lambda: decomp.model({3: SOLID}), "3 cannot be a name"),  # type: ignore[dict-item]
+    "no tolerance": (lambda: decomp.skeleton(SOLID, tolerance=0), "must be positive, got 0"),
     "a coarse tolerance": (lambda: decomp.skeleton(SOLID, tolerance=2), "at most 0.1, got 2"),
     "a tolerance in words": (
         lambda: decomp.skeleton(SOLID, tolerance="fine"),  # type: ignore[arg-type]

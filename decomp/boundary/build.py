@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,7 +19,7 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.boundary.touching import touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
-from decomp.csg.model import Model
+from decomp.csg.model import EMPTY, Model, without_empty
 from decomp.errors import EmptyRegionError, UnboundedRegionError
 from decomp.vectors import Array, Ints, norm
 
@@ -31,10 +32,13 @@ class Boundaries:
     """The exact boundaries of all regions of a model.
 
     Args:
+        model: whose boundaries they are: of the model asked for, the regions that have an interior.
+            Those that have none are among what it ignores.
         form: its carriers and program.
         regions: one boundary per region, in the model's order.
     """
 
+    model: Model
     form: HalfSpaceForm
     regions: tuple[RegionBoundary, ...]
     _sources: tuple[_Source, ...]
@@ -101,37 +105,61 @@ class _Source:
 
 
 def boundaries(model: Model) -> Boundaries:
-    """Compute the exact boundary of every region of a model.
+    """Compute the exact boundary of every region of a model; regions without interior are left out.
 
     Raises:
-        EmptyRegionError: a region has no interior.
+        EmptyRegionError: no region has an interior.
         UnboundedRegionError: a region reaches infinity; names the direction.
         OverlapError: two regions share interior points.
         ContactError: a region touches itself along a curve or at a point.
     """
-    form = half_space_form(model)
-    result = _boundaries_of(form)
-    if not 0.1 < result.diagonal / form.scale < 10:
-        # the estimate from the primitives was far off: do it again with the true size
-        result = _boundaries_of(half_space_form(model, result.diagonal))
+    try:
+        form = half_space_form(model)
+        result = _boundaries_of(model, form)
+        if not 0.1 < result.diagonal / form.scale < 10:
+            # the estimate from the primitives was far off: do it again with the true size
+            result = _boundaries_of(model, half_space_form(model, result.diagonal))
+    except _SomeEmptyError as found:
+        return boundaries(without_empty(model, found.regions))
     return result
 
 
-def _boundaries_of(form: HalfSpaceForm) -> Boundaries:
+class _SomeEmptyError(EmptyRegionError):
+    """Regions without interior, by index, in a model that has others."""
+
+    def __init__(self, regions: Collection[int]) -> None:
+        super().__init__("some regions are empty")
+        self.regions = regions
+
+
+def _boundaries_of(model: Model, form: HalfSpaceForm) -> Boundaries:
     for window in WINDOWS:
         arrangement = arrange(form, max(window * form.scale, _reach(form)))
         surroundings = stars(arrangement)
         try:
-            sources = [
-                _build(arrangement, surroundings, Member(form, k)) for k in range(len(form.names))
-            ]
+            sources = _all_built(arrangement, surroundings, form)
         except UnboundedRegionError:
             if window == WINDOWS[-1]:
                 raise
         else:
             break
     checks.refuse_overlaps(form, arrangement, surroundings)
-    return Boundaries(form, tuple(s.boundary for s in sources), tuple(sources))
+    return Boundaries(model, form, tuple(s.boundary for s in sources), tuple(sources))
+
+
+def _all_built(arrangement: Arrangement, around: list[Star], form: HalfSpaceForm) -> list[_Source]:
+    sources: list[_Source] = []
+    empty: dict[int, EmptyRegionError] = {}
+    for k in range(len(form.names)):
+        try:
+            sources.append(_build(arrangement, around, Member(form, k)))
+        except EmptyRegionError as error:
+            empty[k] = error
+    if not sources:
+        raise empty[0]
+    if empty:
+        raise _SomeEmptyError(empty)
+    return sources
 
 
 def _reach(form: HalfSpaceForm) -> float:
@@ -148,9 +176,7 @@ def _build(arrangement: Arrangement, surroundings: list[Star], member: Member) -
     sets = loop_sets(edges, points, member)
     faces = raw_faces(edges, sets, member, arrangement.radius)
     if not faces:
-        raise EmptyRegionError(
-            f"region {member.name!r} is empty: its Boolean expression leaves no interior"
-        )
+        raise EmptyRegionError(f"region {member.name!r} is {EMPTY}")
     for contact in arrangement.contacts:
         checks.refuse_point_contact(arrangement, contact, member)
     boundary = assembled(form, member, edges, points, sets, faces, arrangement.radius)

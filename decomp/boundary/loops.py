@@ -91,13 +91,7 @@ class _Linker:
         for vertex in sorted(set(arriving) | set(leaving)):
             into, out = arriving[vertex], leaving[vertex]
             if len(into) != len(out):
-                raise ContactError(
-                    f"region {self._member.name!r}: the edges on "
-                    f"{self._member.form.carrier_name(self._carrier_index)} do not close at "
-                    f"{place(self._points[vertex])}; carriers touch there in a way that is not "
-                    "resolved: move one part by more than the tolerance "
-                    f"{self._member.form.tolerance:.3g}"
-                )
+                raise self._unresolved(vertex)
             if len(into) == 1:
                 links[into[0]] = out[0]
             else:
@@ -122,7 +116,18 @@ class _Linker:
             back = angle(half, half.direction < 0)
             turns = [((back - ray) % (2 * np.pi), index) for index, (ray, _) in enumerate(rays)]
             links[half] = rays[min(turns)[1]][1]
+        # two that go on along one edge would leave the loops of the others open for ever
+        if len(set(links.values())) < len(links):
+            raise self._unresolved(vertex)
         return links
+
+    def _unresolved(self, vertex: int) -> ContactError:
+        return ContactError(
+            f"region {self._member.name!r}: the edges on "
+            f"{self._member.form.carrier_name(self._carrier_index)} do not close at "
+            f"{place(self._points[vertex])}; carriers touch there in a way that is not "
+            f"resolved: move one part by more than the tolerance {self._member.form.tolerance:.3g}"
+        )
 
 
 def _cycles(

@@ -15,8 +15,10 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+from decomp.cli.said import say
 from decomp.errors import DecompError, FileError, InputError
 from decomp.files.targets import check_outputs, reason
+from decomp.plain import plain
 
 PASSED = (
     *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
@@ -60,13 +62,13 @@ def run(options: argparse.Namespace) -> None:
     targets = _targets(options)
     outcomes = _meshed(options, targets)
     if not options.quiet:
-        print("\n".join(table(outcomes)))
+        say(table(outcomes))
     failed = [outcome for outcome in outcomes if outcome.error]
     for outcome in failed:
         # errors of files begin with the file's name already
         named = outcome.error.startswith(str(outcome.model))
         where = "" if named else f"{outcome.model}: "
-        print(f"decomp: {where}{outcome.error}", file=sys.stderr)
+        say([f"decomp: {where}{outcome.error}"], to_errors=True)
     if failed:
         raise DecompError(f"{len(failed)} of {len(outcomes)} models failed")
 
@@ -220,21 +222,21 @@ def _bars(models: Sequence[Path], quiet: bool) -> Iterator[list[Tell]]:
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (
-        TextColumn("{task.fields[model]}"),
+        TextColumn("{task.fields[model]}", markup=False),
         BarColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         TimeElapsedColumn(),
     )
     with Progress(*columns, console=Console(stderr=True)) as progress:
         tasks = [
-            progress.add_task("waiting", total=1.0, start=False, model=str(model))
+            progress.add_task("waiting", total=1.0, start=False, model=plain(str(model)))
             for model in models
         ]
 
         def teller(task: Any) -> Tell:
             def tell(what: str, done: float) -> None:
                 progress.start_task(task)
-                progress.update(task, description=what, completed=done)
+                progress.update(task, description=plain(what), completed=done)
 
             return tell
 

@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.said import say
+
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
 
@@ -55,7 +57,7 @@ def run(options: argparse.Namespace) -> None:
     skeleton = computed(options)
     files = write_cells(skeleton, options.output, options.cells, options.format)
     if not options.quiet:
-        print("\n".join(as_text(skeleton, options, [file.name for file in files])))
+        say(as_text(skeleton, options, [file.name for file in files]))
 
 
 def as_text(skeleton: Skeleton, options: argparse.Namespace, files: list[str]) -> list[str]:

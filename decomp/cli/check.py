@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import positive
+from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def run(options: argparse.Namespace) -> None:
     if options.json:
         print(json.dumps(asdict(found), indent=1))
     elif not options.quiet:
-        print("\n".join(as_text(found, options.mesh)))
+        say(as_text(found, options.mesh))
     if found.shortcomings:
         count = len(found.shortcomings)
         ways = "way" if count == 1 else "ways"

@@ -10,6 +10,8 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from decomp.plain import plain
+
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
 
@@ -65,7 +67,7 @@ def reporting(quiet: bool) -> Iterator[Callable[[str, float], None]]:
 
     columns = (
         SpinnerColumn(),
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         TimeElapsedColumn(),
     )
@@ -73,7 +75,7 @@ def reporting(quiet: bool) -> Iterator[Callable[[str, float], None]]:
         task = progress.add_task("", total=1.0)
 
         def report(what: str, done: float) -> None:
-            progress.update(task, description=what, completed=done)
+            progress.update(task, description=plain(what), completed=done)
 
         yield report
 

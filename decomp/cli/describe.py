@@ -7,6 +7,8 @@ import json
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.said import say
+
 if TYPE_CHECKING:
     from decomp.medial.result import RegionSkeleton, Skeleton
 
@@ -49,7 +51,7 @@ def run(options: argparse.Namespace) -> None:
         ]
         print(json.dumps({"model": skeleton.name, "regions": regions}, indent=1))
     else:
-        print("\n".join(as_text(skeleton, rows)))
+        say(as_text(skeleton, rows))
 
 
 def _first_sheets(skeleton: Skeleton) -> list[int]:

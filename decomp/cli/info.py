@@ -9,10 +9,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.said import say
+
 if TYPE_CHECKING:
     from decomp.boundary.build import Boundaries
     from decomp.boundary.topology import RegionBoundary
-    from decomp.csg.model import Model
 
 
 def register(commands: Any) -> None:
@@ -40,13 +41,14 @@ def run(options: argparse.Namespace) -> None:
     with working(f"computing the boundary of {model.name}"):
         result = boundaries(model)
     if options.json:
-        print(json.dumps(as_json(model, result), indent=1))
+        print(json.dumps(as_json(result), indent=1))
     else:
-        print("\n".join(as_text(model, result)))
+        say(as_text(result))
 
 
-def as_json(model: Model, result: Boundaries) -> dict[str, Any]:
+def as_json(result: Boundaries) -> dict[str, Any]:
     """The model's contents as JSON values; lengths in the model's units."""
+    model = result.model
     return {
         "model": model.name,
         "diagonal": result.diagonal,
@@ -99,8 +101,9 @@ def _region_json(region: RegionBoundary, options: Mapping[str, Any]) -> dict[str
     }
 
 
-def as_text(model: Model, result: Boundaries) -> list[str]:
+def as_text(result: Boundaries) -> list[str]:
     """The model's contents as lines for people."""
+    model = result.model
     lines = [f"model {model.name}: {_count(len(result.regions), 'region')}"]
     lines.append(f"  diagonal {result.diagonal:.9g}")
     for region, given in zip(result.regions, model.regions, strict=True):
@@ -110,7 +113,7 @@ def as_text(model: Model, result: Boundaries) -> list[str]:
         lines += ["", f"regions that touch: {', '.join(pairs)}"]
     if model.ignored:
         lines += ["", "ignored statements:"]
-        lines += [f"  line {entry.line}: {entry.statement}" for entry in model.ignored]
+        lines += [f"  {entry}" for entry in model.ignored]
     return lines
 
 

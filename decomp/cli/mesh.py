@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output, positive
+from decomp.cli.said import say
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
@@ -181,8 +182,7 @@ def run(options: argparse.Namespace) -> None:
 
         write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
-        print("\n".join(as_text(figures)))
-        print(f"  written: {', '.join(str(path) for path in outputs)}")
+        say([*as_text(figures), f"  written: {', '.join(str(path) for path in outputs)}"])
 
 
 def _default(model: Path) -> Path:
@@ -248,7 +248,7 @@ def meshed(
         )
         spent = stages.spent()
     exact = {each.name: each.volume for each in geometry.regions}
-    return made, report(made, exact, spent, model.ignored)
+    return made, report(made, exact, spent, geometry.model.ignored)
 
 
 def _count(text: str) -> int:

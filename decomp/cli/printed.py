@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Iterator
@@ -10,6 +11,7 @@ from typing import Any, TextIO, cast
 
 from decomp.errors import FileError
 from decomp.files.targets import reason
+from decomp.plain import plain
 
 
 class ReaderGoneError(Exception):
@@ -28,6 +30,9 @@ def printing() -> Iterator[None]:
     if stream is None:  # closed before the process began: nothing is printed
         yield
         return
+    if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+        # what its encoding has not is escaped
+        stream.reconfigure(errors="backslashreplace")
     guarded = _Guarded(stream)
     try:
         with redirect_stdout(cast(TextIO, guarded)):
@@ -41,7 +46,7 @@ def complain(text: str) -> None:
     if sys.stderr is None:  # closed before the process began
         return
     with suppress(OSError):
-        print(text, file=sys.stderr, flush=True)
+        print(plain(text), file=sys.stderr, flush=True)
 
 
 class _Guarded:

@@ -8,6 +8,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output
+from decomp.cli.said import say
 
 if TYPE_CHECKING:
     from decomp.medial.facing import MidSurface
@@ -65,7 +66,7 @@ def run(options: argparse.Namespace) -> None:
 
         print(json.dumps(contents(skeleton), indent=1))
     elif not options.quiet:
-        print("\n".join(as_text(skeleton, options.tolerance, options.certificate)))
+        say(as_text(skeleton, options.tolerance, options.certificate))
 
 
 def _run_facing(options: argparse.Namespace) -> None:
@@ -87,8 +88,8 @@ def _run_facing(options: argparse.Namespace) -> None:
     for path in options.output:
         surface.write(path)
     if not options.quiet:
-        print("\n".join(as_text(skeleton, options.tolerance, options.certificate)))
-        print("\n".join(["", *mid_text(surface)]))
+        lines = as_text(skeleton, options.tolerance, options.certificate)
+        say([*lines, "", *mid_text(surface)])
 
 
 def mid_text(surface: MidSurface) -> list[str]:

@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output
+from decomp.cli.said import say
 
 if TYPE_CHECKING:
     from decomp.view.scene import Scene
@@ -48,7 +49,7 @@ def run(options: argparse.Namespace) -> None:
     if not options.output:
         show(scene)
     elif not options.quiet:
-        print(f"written: {', '.join(str(path) for path in options.output)}")
+        say([f"written: {', '.join(str(path) for path in options.output)}"])
 
 
 def show(scene: Scene) -> None:

@@ -11,25 +11,20 @@ from functools import cached_property
 import numpy as np
 
 from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
+from decomp.csg.counting import refuse_too_many
+from decomp.csg.expander import Expander
 from decomp.csg.extents import BOX_SLACK, extents
 from decomp.csg.model import Model
 from decomp.csg.options import Options
 from decomp.csg.primitives import Primitive
-from decomp.csg.program import FALSE, TRUE, Program, ProgramBuilder, inverted
+from decomp.csg.program import Program, ProgramBuilder
 from decomp.csg.solid import (
-    Complement,
-    Copies,
-    Difference,
-    Intersection,
-    Labelled,
-    Solid,
-    Transformed,
-    Union,
     walk,
 )
-from decomp.similarity import IDENTITY, Similarity
+from decomp.errors import InputError
+from decomp.magnitude import FARTHEST
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Bools
+from decomp.vectors import Array, Bools, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,26 +107,22 @@ class HalfSpaceForm:
         return self.program.evaluate(self.signed_distances(points) < 0)
 
 
-@dataclass(frozen=True, eq=False)
-class _Context:
-    """What a node inherits from those above it."""
-
-    transform: Similarity
-    prefix: str
-    suffix: str
-    options: Options
-
-
 def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
     """Bring a model into half-space form, merging coincident carriers.
 
     Args:
         model: the model.
         scale: its diagonal, if known; by default estimated from its primitives.
+
+    Raises:
+        InputError: it has too many primitives when its copies are made, or they are too large, too
+            small or too far away to compute with.
     """
-    expander = _Expander(_automatic_names(model))
+    refuse_too_many(model)
+    expander = Expander(_automatic_names(model))
     roots = [expander.expand(region.solid) for region in model.regions]
     centre, estimate = _extent(expander)
+    _refuse_far(centre, estimate)
     size = estimate if scale is None else scale
     index, sign, carriers = _merge(expander.carriers, size)
 
@@ -175,136 +166,16 @@ def _automatic_names(model: Model) -> dict[int, str]:
     return names
 
 
-class _Expander:
-    """Expands the tree into placed primitives and a graph of ANDs over raw carriers.
-
-    A subtree that is met again in the same context is expanded once.
-    """
-
-    def __init__(self, names: dict[int, str]) -> None:
-        self.carriers: list[Carrier] = []
-        self.bounds: dict[int, Array] = {}
-        self.nodes: list[tuple[str, tuple[int, ...]]] = [("and", ())]
-        self.placed: list[tuple[str, list[tuple[str, int]], Options]] = []
-        self._names = names
-        self._done: dict[tuple[int, int], int] = {}
-        self._placed_at: dict[int, int] = {}
-        self._contexts: dict[tuple[int, int, int], _Context] = {}
-        self._root = _Context(IDENTITY, "", "", Options())
-
-    def expand(self, root: Solid) -> int:
-        """Reference to the node that stands for `root`."""
-        stack = [(root, self._root)]
-        while stack:
-            node, context = stack[-1]
-            if (id(node), id(context)) in self._done:
-                stack.pop()
-                continue
-            parts = self._parts(node, context)
-            missing = [p for p in parts if (id(p[0]), id(p[1])) not in self._done]
-            if missing:
-                stack.extend(reversed(missing))
-                continue
-            stack.pop()
-            references = [self._done[id(n), id(c)] for n, c in parts]
-            self._done[id(node), id(context)] = self._combine(node, context, references)
-        return self._done[id(root), id(self._root)]
-
-    def placed_below(self, reference: int) -> set[int]:
-        """Indices of the placed primitives that a node is made of."""
-        found: set[int] = set()
-        seen: set[int] = set()
-        stack = [reference >> 1]
-        while stack:
-            node = stack.pop()
-            if node in seen:
-                continue
-            seen.add(node)
-            if node in self._placed_at:
-                found.add(self._placed_at[node])
-            elif self.nodes[node][0] == "and":
-                stack.extend(ref >> 1 for ref in self.nodes[node][1])
-        return found
-
-    def _parts(self, node: Solid, context: _Context) -> list[tuple[Solid, _Context]]:
-        match node:
-            case Transformed(part=part):
-                return [(part, self._context(context, node, 0))]
-            case Copies(part=part, by=by):
-                return [(part, self._context(context, node, k)) for k in range(len(by))]
-            case Labelled(part=part):
-                return [(part, self._context(context, node, 0))]
-            case _:
-                return [(child, context) for child in node.children()]
-
-    def _context(self, outer: _Context, node: Solid, copy: int) -> _Context:
-        key = (id(outer), id(node), copy)
-        if key not in self._contexts:
-            self._contexts[key] = _inner_context(outer, node, copy)
-        return self._contexts[key]
-
-    def _combine(self, node: Solid, context: _Context, references: list[int]) -> int:
-        match node:
-            case Primitive():
-                return self._place(node, context)
-            case Union() | Copies():
-                return inverted(self._conjunction([inverted(r) for r in references]))
-            case Intersection():
-                return self._conjunction(references)
-            case Difference():
-                return self._conjunction([references[0], inverted(references[1])])
-            case Complement():
-                return inverted(references[0])
-            case _:
-                return references[0]
-
-    def _place(self, primitive: Primitive, context: _Context) -> int:
-        name = context.prefix + self._names[id(primitive)] + context.suffix
-        sides: list[tuple[str, int]] = []
-        literals = []
-        for face, carrier in primitive.half_spaces():
-            sides.append((f"{name}.{face}" if face else name, len(self.carriers)))
-            self.nodes.append(("literal", (len(self.carriers),)))
-            literals.append(2 * (len(self.nodes) - 1))
-            self.carriers.append(carrier.transformed(context.transform))
-        box = primitive.bounds()
-        if box is not None:
-            corners = np.array([[box[(k >> j) & 1, j] for j in range(3)] for k in range(8)])
-            corners = context.transform.points(corners)
-            self.bounds[len(self.nodes)] = np.array([corners.min(axis=0), corners.max(axis=0)])
-        # A node of its own even for a single half-space, so that the primitive can be found again.
-        self.nodes.append(("and", tuple(literals)))
-        self._placed_at[len(self.nodes) - 1] = len(self.placed)
-        self.placed.append((name, sides, context.options))
-        return 2 * (len(self.nodes) - 1)
-
-    def _conjunction(self, references: list[int]) -> int:
-        parts = tuple(dict.fromkeys(references))
-        if len(parts) == 1:
-            return parts[0]
-        if FALSE in parts:
-            return FALSE
-        self.nodes.append(("and", tuple(p for p in parts if p != TRUE)))
-        return 2 * (len(self.nodes) - 1)
+def _refuse_far(centre: Array, size: float) -> None:
+    away = float(norm(centre))
+    if away > FARTHEST * size:
+        raise InputError(
+            f"the model's size is {size:.3g}, but it is {away:.3g} away from the origin, where "
+            "coordinates have not the digits to tell its points apart: move it nearer"
+        )
 
 
-def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
-    """The context below a `Transformed`, `Copies` or `Labelled` node."""
-    match node:
-        case Transformed(by=by):
-            inner = outer.transform.after(by)
-            return _Context(inner, outer.prefix, outer.suffix, outer.options)
-        case Copies(by=by):
-            inner = outer.transform.after(by[copy])
-            return _Context(inner, outer.prefix, f"#{copy + 1}{outer.suffix}", outer.options)
-        case Labelled(name=name, options=options):
-            prefix = outer.prefix if name is None else f"{outer.prefix}{name}."
-            merged = Options({**outer.options, **options})
-            return _Context(outer.transform, prefix, outer.suffix, merged)
-    raise TypeError(f"{type(node).__name__} gives no context")
-
-
-def _extent(expander: _Expander) -> tuple[Array, float]:
+def _extent(expander: Expander) -> tuple[Array, float]:
     """Middle and diagonal of a box around the primitives, of infinite ones around their points."""
     points = list(expander.bounds.values())
     for carrier in expander.carriers:

@@ -3,29 +3,37 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from decomp.csg.options import OF_REGIONS, Options, checked
 from decomp.csg.packing import Packed, packed, unpacked
-from decomp.csg.solid import Solid, checked_name
+from decomp.csg.solid import Solid, checked_name, checked_text
 from decomp.errors import InputError
+
+EMPTY = "empty: its Boolean expression leaves no interior"
 
 
 @dataclass(frozen=True, eq=False)
 class Region:
     """A named solid with options, such as `maxh`, the largest edge length wanted in it.
 
+    Args:
+        name: of the region.
+        solid: what it fills.
+        options: by name (`decomp.csg.options.OF_REGIONS`).
+        line: of its file that makes it a region, if there is one.
+
     Raises:
-        InputError: it is of no solid; an option is unknown, or its value wrong
-            (`decomp.csg.options.OF_REGIONS`).
+        InputError: it is of no solid; an option is unknown, or its value wrong.
     """
 
     name: str
     solid: Solid
     options: Mapping[str, Any] = field(default_factory=Options)
+    line: int | None = None
 
     def __post_init__(self) -> None:
         where = f"region {self.name!r}"
@@ -36,10 +44,13 @@ class Region:
 
 @dataclass(frozen=True)
 class Ignored:
-    """A statement of a file that makes no region and is not used."""
+    """A statement that makes no region and is not used; its line, if it stands in a file."""
 
     statement: str
-    line: int
+    line: int | None
+
+    def __str__(self) -> str:
+        return self.statement if self.line is None else f"line {self.line}: {self.statement}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +64,7 @@ class Model:
         source: the file that it was read from, None if from none; no output may replace it.
 
     Raises:
-        InputError: no region, what is none, or two of the same name.
+        InputError: no region, what is none, two of the same name, or a name that cannot be one.
     """
 
     regions: tuple[Region, ...]
@@ -67,6 +78,7 @@ class Model:
         for region in self.regions:
             if not isinstance(region, Region):
                 raise InputError(f"{region!r} is no region; decomp.Region(name, solid) makes one")
+        checked_text(self.name, "the model's name")
         counts = Counter(checked_name(region.name) for region in self.regions)
         name, count = counts.most_common(1)[0]
         if count > 1:
@@ -74,22 +86,34 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickled and copied so that regions go on sharing solids."""
-        rest = tuple((region.name, region.options) for region in self.regions)
+        rest = tuple((region.name, region.options, region.line) for region in self.regions)
         solids = packed([region.solid for region in self.regions])
-        return _unpickled, (solids, rest, self.name, self.ignored)
+        return _unpickled, (solids, rest, self.name, self.ignored, self.source)
 
 
 def _unpickled(
     solids: Packed,
-    rest: Sequence[tuple[str, Mapping[str, Any]]],
+    rest: Sequence[tuple[str, Mapping[str, Any], int | None]],
     name: str,
     ignored: tuple[Ignored, ...],
+    source: Path | None,
 ) -> Model:
     regions = (
-        Region(each, solid, options)
-        for solid, (each, options) in zip(unpacked(solids), rest, strict=True)
+        Region(each, solid, options, line)
+        for solid, (each, options, line) in zip(unpacked(solids), rest, strict=True)
     )
-    return Model(tuple(regions), name, ignored)
+    return Model(tuple(regions), name, ignored, source)
+
+
+def without_empty(model: Model, empty: Collection[int]) -> Model:
+    """The same model without some regions (by index), which have no interior and are ignored."""
+    left_out = tuple(
+        Ignored(f"region {region.name} ({EMPTY})", region.line)
+        for k, region in enumerate(model.regions)
+        if k in empty
+    )
+    kept = tuple(region for k, region in enumerate(model.regions) if k not in empty)
+    return Model(kept, model.name, (*model.ignored, *left_out), model.source)
 
 
 def model(solids: Solid | dict[str, Solid] | Sequence[Region], name: str = "model") -> Model:

@@ -67,7 +67,13 @@ def _whole(value: Any) -> int | None:
 
 
 def _text(value: Any) -> str | None:
-    return value if isinstance(value, str) and value else None
+    if not isinstance(value, str) or not value:
+        return None
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        return None
+    return value
 
 
 def _colour(value: Any) -> tuple[int | float, ...] | None:
@@ -83,11 +89,11 @@ def _flag(value: Any) -> bool | None:
 
 _MAXH = Known("a length above zero", _length)
 _BC = Known("a whole number", _whole)
-OF_FACES = {"maxh": _MAXH, "bc": _BC, "bcname": Known("a text", _text)}
+OF_FACES = {"maxh": _MAXH, "bc": _BC, "bcname": Known("a text with a form in UTF-8", _text)}
 OF_REGIONS = {
     "maxh": _MAXH,
     "bc": _BC,
-    "material": Known("a text", _text),
+    "material": Known("a text with a form in UTF-8", _text),
     "col": Known("three numbers", _colour),
     "transparent": Known("True or False", _flag),
     "layer": Known("a whole number", _whole),

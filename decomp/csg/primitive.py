@@ -14,6 +14,7 @@ from decomp import carriers
 from decomp.carriers import Carrier
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
+from decomp.magnitude import check_length
 from decomp.vectors import Array, direction, frozen, norm, number, place
 
 HalfSpaces = Iterator[tuple[str, Carrier]]
@@ -72,6 +73,8 @@ def radius_at_end(value: float, what: str) -> float:
     result = number(value, what)
     if result < 0:
         raise InputError(f"{what} must not be negative, got {result:g}")
+    if result > 0:
+        check_length(result, what)
     return result
 
 

@@ -24,6 +24,7 @@ from decomp.csg.unbounded import HalfSpace as HalfSpace
 from decomp.csg.unbounded import InfiniteCone as InfiniteCone
 from decomp.csg.unbounded import InfiniteCylinder as InfiniteCylinder
 from decomp.errors import InputError
+from decomp.magnitude import check_length
 from decomp.vectors import Array, direction, frozen, place, positive, vector
 
 
@@ -52,6 +53,7 @@ class Block(Primitive):
         low, extent = vector(corner, "block corner"), vector(size, "block size")
         if (extent <= 0).any():
             raise InputError(f"block size must be positive along each axis, got {place(extent)}")
+        check_length(float(extent.min()), "block size")
         set_fields(self, name, corner=low, size=extent)
 
     @classmethod

@@ -263,20 +263,38 @@ def walk(roots: Sequence[Solid]) -> Iterator[Solid]:
 
 
 RESERVED = ".#/"
+LONGEST_NAME = 1000
+"""Characters of a name, and of all that stands before or after it in faces' names."""
 
 
 def checked_name(name: str) -> str:
-    """Return `name`, or raise InputError if it is empty or holds `. # /`, quotes or blanks."""
-    if (
-        not isinstance(name, str)
-        or not name
-        or any(c in RESERVED or c.isspace() or c == '"' for c in name)
-    ):
+    """Return `name`, or raise InputError if it cannot be one.
+
+    It is no text, empty, too long, holds `. # /`, quotes or blanks, or has no form in UTF-8.
+    """
+    if not isinstance(name, str):
+        raise InputError(f"{name!r} cannot be a name: a name is a text")
+    if len(name) > LONGEST_NAME:
+        raise InputError(
+            f"a name has {len(name):,} characters, but at most {LONGEST_NAME:,} are allowed: "
+            f"{name[:40]!r}..."
+        )
+    checked_text(name, "a name")
+    if not name or any(c in RESERVED or c.isspace() or c == '"' for c in name):
         raise InputError(
             f"{name!r} cannot be a name: use at least one character, no blanks, quotes or any of "
             + " ".join(RESERVED)
         )
     return name
+
+
+def checked_text(text: str, what: str) -> str:
+    """Return `text`, or raise InputError if it holds half a surrogate pair, which no file can."""
+    if any("\ud800" <= c <= "\udfff" for c in text):
+        raise InputError(
+            f"{what} holds half of a surrogate pair, which has no form in UTF-8: {text[:40]!r}"
+        )
+    return text
 
 
 def checked_count(count: int) -> int:

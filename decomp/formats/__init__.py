@@ -5,6 +5,7 @@ The readers are loaded when they are first used, as they bring in a parser libra
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -28,7 +29,8 @@ Format = Literal["geo", "csg", "json"]
 FORMATS: tuple[Format, ...] = get_args(Format)
 SAVED = (".json",)
 """Suffixes of files that models are written to."""
-MAX_BYTES = 200_000_000
+MAX_BYTES = 64_000_000
+"""Of a model file; read as JSON, it takes up to twenty times as much memory."""
 EXPECTED = "expected Netgen .geo (algebraic3d), OpenSCAD .csg or decomp .json"
 
 
@@ -47,7 +49,9 @@ def load(path: str | Path) -> Model:
     text = _text(data, file, form)
     if not text.strip():
         raise ParseError(f"the file is empty; {EXPECTED}", file)
-    return loads(text, form or _sniffed(text, file), file.stem, file)
+    # bytes of a file's name that are no UTF-8 stand for themselves in no text
+    name = os.fsencode(file.stem).decode("utf-8", "replace")
+    return loads(text, form or _sniffed(text, file), name, file)
 
 
 def loads(text: str, form: Format, name: str = "model", path: str | Path | None = None) -> Model:
@@ -59,7 +63,12 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
     from decomp.formats.source import Source
 
     source = Source(text.replace("\r\n", "\n").replace("\r", "\n"), path)
-    found = _read(source, form, name)
+    try:
+        found = _read(source, form, name)
+    except FileError:
+        raise
+    except InputError as error:  # of the model as a whole, such as two regions of one name
+        raise ParseError(str(error), path) from None
     return found if path is None else replace(found, source=Path(path).absolute())
 
 

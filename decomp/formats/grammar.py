@@ -60,7 +60,7 @@ class Language:
     words: Mapping[str, str]
 
 
-Refusal = Callable[["Token", Collection[str]], FileError | None]
+Refusal = Callable[["Token", set[str]], FileError | None]
 
 
 def parse(language: Language, source: Source, actions: object, refuse: Refusal) -> Any:
@@ -75,16 +75,16 @@ def parse(language: Language, source: Source, actions: object, refuse: Refusal) 
     """
     text = source.text
     if len(text) > MAX_TOKENS:
-        start = itertools.islice(_tokens(language, text), PROBED_TOKENS)
+        start = itertools.islice(tokens(language, text), PROBED_TOKENS)
         _run(language, source, start, None, refuse, whole=False)
         _refuse_long(language, source)
-    return _run(language, source, _tokens(language, text), actions, refuse)
+    return _run(language, source, tokens(language, text), actions, refuse)
 
 
 def _run(
     language: Language,
     source: Source,
-    tokens: Iterator[Token],
+    read: Iterator[Token],
     actions: Any,
     refuse: Refusal,
     whole: bool = True,
@@ -97,7 +97,7 @@ def _run(
     run = parser.parse_interactive()
     feed = run.parser_state.feed_token
     try:
-        for token in tokens:
+        for token in read:
             feed(token)
         return feed(Token("$END", "", len(source.text.rstrip())), True) if whole else None
     except UnexpectedToken as error:
@@ -111,11 +111,14 @@ def numbers(token: str) -> list[float]:
     return [float(part) for part in "".join(token.split()).split(",")]
 
 
-def _tokens(language: Language, text: str) -> Iterator[Token]:
+def tokens(
+    language: Language, text: str, start: int = 0, end: int | None = None
+) -> Iterator[Token]:
+    """The tokens of a text, or of a stretch of it that begins and ends between two of them."""
     from lark import Token
 
     kinds = language.kinds
-    for match in language.token.finditer(text):
+    for match in language.token.finditer(text, start, len(text) if end is None else end):
         kind = match.lastgroup or ""
         if kind == "END":
             return

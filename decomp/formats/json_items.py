@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite
 from typing import Any
 
 from decomp.csg.options import Known, Options, checked
-from decomp.csg.solid import checked_name
+from decomp.csg.solid import checked_name, checked_text
 from decomp.errors import InputError
 from decomp.formats.native_schema import KNOWN
+from decomp.magnitude import check_magnitude
 from decomp.vectors import Array, frozen
 
 
@@ -48,7 +48,7 @@ class Item:
         value = self.get(key)
         if not isinstance(value, str):
             raise InputError(f"{self.place(key)} must be a text, not {shown(value)}")
-        return value
+        return checked_text(value, self.place(key))
 
     def kind(self) -> str:
         """The type of a node."""
@@ -61,7 +61,12 @@ class Item:
     def name(self) -> str | None:
         """The name of a node, if it has one."""
         value = self.value.get("name")
-        return None if value is None else checked_name(self.text("name"))
+        if value is None:
+            return None
+        try:
+            return checked_name(self.text("name"))
+        except InputError as error:
+            raise InputError(f"{self.where}: {error}") from None
 
     def items(self, key: str) -> list[Any]:
         """The list of a key."""
@@ -100,15 +105,14 @@ def a_whole_number(value: Any, where: str) -> int:
 
 
 def a_number(value: Any, where: str) -> float:
-    """A value that must be a finite number."""
+    """A value that must be a finite number, and not too large."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"{where} must be a number, not {shown(value)}")
     try:
         result = float(value)
     except OverflowError:
         result = float("inf")
-    if not isfinite(result):
-        raise InputError(f"{where} must be finite")
+    check_magnitude(result, where)
     return result
 
 

@@ -30,6 +30,7 @@ from decomp.formats.json_items import Item, a_list, a_vector, a_whole_number, sh
 from decomp.formats.native_schema import KNOWN, NODES, PRIMITIVES, VERSION
 from decomp.formats.native_writing import dumps
 from decomp.formats.source import Source
+from decomp.magnitude import check_length
 from decomp.similarity import Similarity
 from decomp.vectors import frozen
 
@@ -91,7 +92,8 @@ def _model(document: Any, name: str) -> Model:
     for k, value in enumerate(a_list(document.get("ignored", []), "ignored")):
         item = Item(value, f"ignored[{k}]")
         item.only("statement", "line")
-        ignored.append(Ignored(item.text("statement"), item.whole("line")))
+        line = None if item.get("line") is None else item.whole("line")
+        ignored.append(Ignored(item.text("statement"), line))
     return Model(tuple(regions), top.text("name") if "name" in document else name, tuple(ignored))
 
 
@@ -154,6 +156,7 @@ def _similarity_in(value: Any, where: str) -> Similarity:
     scale = item.number("scale")
     if scale <= 0:
         raise InputError(f"{item.place('scale')} must be positive, got {scale:g}")
+    check_length(scale, item.place("scale"))
     return Similarity(rotation, scale, item.vector("offset"))
 
 

@@ -10,23 +10,12 @@ from __future__ import annotations
 import copy
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from decomp import similarity
+from decomp.csg.counting import MOST_PRIMITIVES
 from decomp.csg.model import Ignored, Model, Region
 from decomp.csg.options import OF_FACES, OF_REGIONS, Known, Options
-from decomp.csg.primitives import (
-    Block,
-    HalfSpace,
-    InfiniteCone,
-    InfiniteCylinder,
-    Primitive,
-    Sphere,
-    Torus,
-)
 from decomp.csg.solid import (
     Complement,
     Copies,
@@ -35,32 +24,18 @@ from decomp.csg.solid import (
     Solid,
     Transformed,
     Union,
+    checked_name,
 )
 from decomp.errors import FileError, InputError
-from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern
+from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern, tokens
 from decomp.formats.netgen_flags import Flag, options, plain
+from decomp.formats.netgen_solids import COPIES, PRIMITIVES, STEPS, WRITTEN, Vector
 from decomp.formats.source import Source
 from decomp.similarity import Similarity
 
 if TYPE_CHECKING:
     from lark import Token
 
-Vector = list[float]
-
-# what a primitive is made from: how it is written, the count of numbers in each of its lists
-WRITTEN: dict[str, tuple[str, tuple[int, ...]]] = {
-    "plane": ("plane (x, y, z of a point; normal)", (3, 3)),
-    "sphere": ("sphere (centre; radius)", (3, 1)),
-    "cylinder": ("cylinder (point of the axis; second point; radius)", (3, 3, 1)),
-    "cone": ("cone (point of the axis; radius; second point; radius)", (3, 1, 3, 1)),
-    "orthobrick": ("orthobrick (corner; opposite corner)", (3, 3)),
-    "torus": ("torus (centre; axis; major radius; minor radius)", (3, 3, 1, 1)),
-    "translate": ("translate (vector; solid)", (3,)),
-    "rotate": ("rotate (centre; three Euler angles; solid)", (3, 3)),
-    "multitranslate": ("multitranslate (vector; number of copies; solid)", (3, 1)),
-    "multirotate": ("multirotate (centre; three Euler angles; number; solid)", (3, 3, 1)),
-}
-MOST_COPIES = 100_000
 MOVES = ("translate", "rotate", "multitranslate", "multirotate")
 UNSUPPORTED = (
     "ellipsoid",
@@ -138,6 +113,10 @@ LANGUAGE = Language(
 )
 
 
+RESERVED = {word for word in LANGUAGE.kinds if word.isalnum()}
+NO_SOLID = "the file defines no solid; add a line such as 'solid main = sphere (0, 0, 0; 1);'"
+
+
 def read(source: Source, name: str = "model") -> Model:
     """Read a model.
 
@@ -149,7 +128,9 @@ def read(source: Source, name: str = "model") -> Model:
     parse(LANGUAGE, source, reader, reader.refuse)
     if not reader.regions:
         raise source.wrong(
-            "the file names no solid to be meshed; add a line such as 'tlo main;'",
+            "the file names no solid to be meshed; add a line such as 'tlo main;'"
+            if reader.solids
+            else NO_SOLID,
             len(source.text.rstrip()),
         )
     return Model(tuple(reader.regions.values()), name, tuple(reader.ignored))
@@ -164,6 +145,9 @@ class _Reader:
         self.regions: dict[str, Region] = {}
         self.ignored: list[Ignored] = []
         self.current = ""
+        self.defined: dict[str, tuple[int, int]] = {}
+        self.heading_at = 0
+        self.copies = 0
         self.counts: Counter[str] = Counter()
         self.last: Solid | None = None
 
@@ -172,26 +156,61 @@ class _Reader:
 
     def heading(self, parts: list[Token]) -> None:
         (name,) = parts
-        if name in self.solids:
-            raise self.wrong(f"the solid {str(name)!r} is defined a second time", name)
+        try:
+            checked_name(name)
+        except InputError as error:
+            raise self.wrong(str(error), name) from None
         self.current, self.last = str(name), None
+        self.heading_at = name.start_pos or 0
         self.counts.clear()
 
     def solid(self, parts: list[Any]) -> None:
-        _, body, *flags, _ = parts
+        _, body, *flags, end = parts
+        place = self.heading_at, end.start_pos
+        if self.current in self.defined:
+            self.defined_again(self.current, place)
+            self.current = ""
+            return
+        self.defined[self.current] = place
         if isinstance(body, Labelled) and body is self.last and self.counts.total() == 1:
             body = _renamed(body.part, self.current)
         found = self.options(flags, OF_FACES, f"solid {self.current}")
         self.solids[self.current] = Labelled(body, None, found) if found else body
         self.current = ""
 
+    def defined_again(self, name: str, place: tuple[int, int]) -> None:
+        """Netgen takes a second definition; here it must say what the first one says."""
+        first, again = (
+            [
+                numbers(token) if token.type == "NUMBERS" else "".join(token.split())
+                for token in tokens(LANGUAGE, self.source.text, *span)
+            ]
+            for span in (self.defined[name], place)
+        )
+        if first != again:
+            lines = [self.source.line(start) for start, _ in (self.defined[name], place)]
+            raise self.source.wrong(
+                f"the solid {name!r} is defined in line {lines[0]}, and with another body in line "
+                f"{lines[1]}: give each its own name",
+                place[0],
+            )
+
     def region(self, parts: list[Any]) -> None:
-        _, name, *flags, _ = parts
+        _, name, *flags, end = parts
         solid = self.reference([name])
-        if name in self.regions:
-            raise self.wrong(f"the solid {str(name)!r} is a tlo already", name)
-        found = self.options(flags, OF_REGIONS, f"tlo {name}")
-        self.regions[str(name)] = Region(str(name), solid, found)
+        line = self.source.line(name.start_pos)
+        known = self.regions.get(name)
+        if known is None:
+            found = self.options(flags, OF_REGIONS, f"tlo {name}")
+            self.regions[str(name)] = Region(str(name), solid, found, line)
+        elif known.options == options(flags, OF_REGIONS, f"tlo {name}", _dropped, self.wrong):
+            self.ignore(parts[0], end.start_pos)
+        else:
+            raise self.wrong(
+                f"the solid {str(name)!r} is a tlo in line {known.line}, and with other flags in "
+                f"line {line}: keep one of them",
+                name,
+            )
 
     def patch(self, parts: list[Any]) -> None:
         for name in parts[1:3]:
@@ -225,6 +244,8 @@ class _Reader:
         if name == self.current:
             raise self.wrong(f"the solid {str(name)!r} refers to itself", name)
         message = f"the solid {str(name)!r} is not defined"
+        if not self.solids and not self.current:
+            message += f": {NO_SOLID}"
         later = re.compile(rf"\bsolid\s+{re.escape(name)}\s*=").search(
             self.source.text, name.start_pos or 0
         )
@@ -248,9 +269,17 @@ class _Reader:
             step: Similarity = self.checked(word, lambda: STEPS[word](*values))
             return Transformed(solid, step)
         count = values.pop()[0]
-        if count != round(min(count, MOST_COPIES)) or count < 0:
+        if count != round(min(count, MOST_PRIMITIVES)) or count < 0:
             raise self.wrong(
-                f"{word!s} takes a whole number of copies from 0 to {MOST_COPIES:,}, got {count:g}",
+                f"{word!s} takes a whole number of copies from 0 to {MOST_PRIMITIVES:,}, got "
+                f"{count:g}",
+                word,
+            )
+        self.copies += int(count)
+        if self.copies > MOST_PRIMITIVES:
+            raise self.wrong(
+                f"here the file has made {self.copies:,} copies, but at most {MOST_PRIMITIVES:,} "
+                "are computed with: make fewer",
                 word,
             )
         return Copies(solid, self.checked(word, lambda: COPIES[word](*values, int(count))))
@@ -309,7 +338,7 @@ class _Reader:
     def wrong(self, message: str, token: Token) -> FileError:
         return self.source.wrong(message, token.start_pos or 0)
 
-    def refuse(self, token: Token, expected: Collection[str]) -> FileError | None:
+    def refuse(self, token: Token, expected: set[str]) -> FileError | None:
         """Errors that say more than which tokens were expected."""
         position = token.start_pos or 0
         if "_ALGEBRAIC3D" in expected:
@@ -323,6 +352,12 @@ class _Reader:
             return self.source.unsupported(
                 f"{token} (in solid {headings[-1]!r}) is not supported: solids are made of plane, "
                 "sphere, cylinder, cone, orthobrick and torus",
+                position,
+            )
+        if token in RESERVED and "NAME" in expected and not expected & {"PRIMITIVE", "SEMI"}:
+            return self.source.wrong(
+                f"{str(token)!r} is a word of the format, in Netgen too, and cannot be a name; "
+                "expected a name of your own",
                 position,
             )
         if token.type == "NAME" and "_SOLID" in expected:
@@ -341,53 +376,5 @@ def _renamed(primitive: Solid, name: str) -> Solid:
     return result
 
 
-def _cone(a: Vector, ra: Vector, b: Vector, rb: Vector) -> Primitive:
-    if ra == rb and ra[0] > 0:
-        return InfiniteCylinder(a, np.subtract(b, a), ra[0])
-    return InfiniteCone.through(a, ra[0], b, rb[0])
-
-
-PRIMITIVES: dict[str, Callable[..., Primitive]] = {
-    "plane": HalfSpace,
-    "sphere": lambda centre, radius: Sphere(centre, radius[0]),
-    "cylinder": lambda a, b, radius: InfiniteCylinder(a, np.subtract(b, a), radius[0]),
-    "cone": _cone,
-    "orthobrick": lambda a, b: Block.between(np.minimum(a, b), np.maximum(a, b)),
-    "torus": lambda centre, axis, major, minor: Torus(centre, axis, major[0], minor[0]),
-}
-
-
-def _rotation(centre: Vector, angles: Vector) -> Similarity:
-    """Netgen's rotation: Euler angles z, x, z in radians, each turning clockwise.
-
-    Source: Netgen, libsrc/gprim/transform3d.hpp, `Transformation` and `SetAxisRotation`.
-    """
-    turns = [
-        similarity.rotation(axis, -float(np.degrees(angle)), centre)
-        for axis, angle in zip(((0, 0, 1), (1, 0, 0), (0, 0, 1)), angles, strict=True)
-    ]
-    return turns[2].after(turns[1]).after(turns[0])
-
-
-def _translations(step: Vector, count: int) -> tuple[Similarity, ...]:
-    """The solid itself and `count` copies (Netgen, libsrc/csg/csgparser.cpp)."""
-    return tuple(similarity.translation(np.multiply(k, step)) for k in range(count + 1))
-
-
-def _rotations(centre: Vector, angles: Vector, count: int) -> tuple[Similarity, ...]:
-    """The solid itself and `count` - 1 copies, as Netgen's first copy lies on the solid itself."""
-    step = _rotation(centre, angles)
-    result = [similarity.translation((0, 0, 0))]
-    for _ in range(count - 1):
-        result.append(step.after(result[-1]))
-    return tuple(result)
-
-
-STEPS: dict[str, Callable[..., Similarity]] = {
-    "translate": similarity.translation,
-    "rotate": _rotation,
-}
-COPIES: dict[str, Callable[..., tuple[Similarity, ...]]] = {
-    "multitranslate": _translations,
-    "multirotate": _rotations,
-}
+def _dropped(flag: Flag) -> None:
+    """An unknown flag of a line that is ignored as a whole."""

@@ -8,7 +8,6 @@ is reported and not followed, as surfaces are exact.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from decomp.csg.model import Model, Region
@@ -152,7 +151,7 @@ class _Reader(Shapes):
             self.roots.append((call.position, shape))
         return None if "%" in call.modifiers else shape
 
-    def refuse(self, token: Token, expected: Collection[str]) -> FileError | None:
+    def refuse(self, token: Token, expected: set[str]) -> FileError | None:
         """Errors that say more than which tokens were expected."""
         position = token.start_pos or 0
         if token.type == "_EQUALS" and "_LPAR" in expected:

@@ -38,7 +38,6 @@ PARAMETERS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "intersection": ((), ()),
 }
 ROUND = ("sphere", "cylinder", "circle", "rotate_extrude")
-SPECIAL = ("$fn", "$fa", "$fs")
 SIMILARITIES = "only moves, rotations, mirrors and uniform scales are supported"
 
 EMPTY = Union(())
@@ -107,7 +106,8 @@ class Shapes:
         order, more = PARAMETERS[call.name]
         if call.name in ("cube", *ROUND[:3]):
             for key in call.values:
-                if key not in (*order, *more, *SPECIAL, "convexity"):
+                # special variables ($fn, $fa, $fs, $fe...) may be given to anything
+                if key not in (*order, *more, "convexity") and not key.startswith("$"):
                     raise InputError(f"unknown parameter {key!r}; known are {', '.join(order)}")
         facets = call.values.get("$fn")
         if call.name in ROUND and isinstance(facets, float) and facets > 0:

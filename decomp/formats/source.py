@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from bisect import bisect_left
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from decomp.errors import ParseError, UnsupportedError
@@ -20,9 +23,14 @@ class Source:
     text: str
     path: str | Path | None = None
 
+    @cached_property
+    def _breaks(self) -> list[int]:
+        """Where the lines end."""
+        return [found.start() for found in re.finditer("\n", self.text)]
+
     def line(self, position: int) -> int:
         """The 1-based line of a character."""
-        return self.text.count("\n", 0, position) + 1
+        return bisect_left(self._breaks, position) + 1
 
     def column(self, position: int) -> int:
         """The 1-based column of a character."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from decomp.output.elements import KINDS, Elements
+from decomp.plain import plain
 from decomp.vectors import Array, Ints
 
 
@@ -34,7 +35,7 @@ def _groups(parts: Elements) -> Iterator[str]:
         if len(rows):
             kind, sheet = group[rows[0]]
             name = parts.sheet_names[sheet] if sheet >= 0 else KINDS[kind].replace(" ", "-")
-            yield f"g {name}"
+            yield f"g {plain(name)}"
             yield from _items("f", parts.triangles[rows])
     curves = parts.kind[count : count + len(parts.segments)] == KINDS.index("reflexive")
     if curves.any() or len(parts.singles):

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from decomp.errors import FileError
+from decomp.magnitude import LARGEST
 from decomp.tetra.msh_sections import Numbers, Sections, sections
 from decomp.vectors import Array, Ints
 
@@ -79,6 +80,8 @@ def read_msh(path: str | Path) -> ReadMesh:
     if not np.isin(used, tags).all():
         raise FileError("there are elements with nodes that it does not define", path)
     place = order[np.searchsorted(tags[order], used)]
+    if not (np.abs(points[place]) <= LARGEST).all():
+        raise FileError("a node's coordinates are not finite, or too large to compute with", path)
     names = {(2, int(tag)): "" for tag in np.unique(triangle_tags) if tag > 0}
     names |= {(3, int(tag)): "" for tag in np.unique(tet_tags) if tag > 0}
     names |= {key: name for key, name in parts.names.items() if key[0] in (2, 3)}
@@ -147,21 +150,24 @@ def _read_22(parts: Sections) -> tuple[Ints, Array, list[_Block]]:
         raise FileError("format 2.2 is read as text only: save it as text, or as 4.1", parts.path)
     count = numbers.one("i8")
     nodes = numbers.take("f8", 4 * count).reshape(count, 4)
+    tags = numbers.typed(nodes[:, 0], np.dtype(np.int64))
     numbers = parts.numbers("Elements")
     count = numbers.one("i8")
     blocks = [_with_several(block) for block in _runs(numbers, count, parts)]
-    return nodes[:, 0].astype(np.int64), nodes[:, 1:], blocks
+    return tags, nodes[:, 1:], blocks
 
 
 def _runs(numbers: Numbers, count: int, parts: Sections) -> list[_Block]:
     """Elements of format 2.2, all of one type together."""
-    words = numbers.rest.astype(np.int64)
+    words = numbers.rest
     found: dict[int, list[_Block]] = {}
     at = done = 0
     while done < count:
         if at + 3 > len(words):
             raise FileError("section $Elements ends too early", parts.path)
         kind, tags = int(words[at + 1]), int(words[at + 2])
+        if tags < 0:
+            raise FileError(f"an element has {tags} tags", parts.path)
         width = 3 + tags + _width(kind, parts)
         most = min(count - done, (len(words) - at) // width)
         if most == 0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.errors import FileError
+from decomp.tetra.msh_names import read_names
 
-NAME = re.compile(rb'^\s*(\d+)\s+(-?\d+)\s+"(.*)"\s*$')
+LARGEST_WHOLE = {4: 2**31 - 1, 8: 2**53}
+"""By bytes of the type; beyond 2^53 a number read from text is not exact."""
 
 
 class Numbers:
@@ -30,13 +33,13 @@ class Numbers:
         self._swapped = swapped
         self._words: NDArray[np.float64] | None = None
         if not binary:
-            self._words = np.array(body.split(), dtype=np.float64)
+            self._words = _words(body)
 
     def take(self, kind: str, count: int) -> NDArray[Any]:
         """The next numbers (count,) of a NumPy type.
 
         Raises:
-            FileError: there are too few.
+            FileError: there are too few, or they are not of this type.
         """
         dtype = np.dtype(kind)
         have = len(self._body) if self._words is None else len(self._words)
@@ -47,19 +50,34 @@ class Numbers:
             stored = dtype.newbyteorder("S") if self._swapped else dtype
             found = np.frombuffer(self._body, stored, count, self._at).astype(dtype)
         else:
-            found = self._words[self._at : end].astype(dtype)
+            found = self.typed(self._words[self._at : end], dtype)
         self._at = end
         return found
+
+    def typed(self, words: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[Any]:
+        """Numbers read from text (n,), as another type.
+
+        Raises:
+            FileError: they are to be whole, and are not, or are too large for it.
+        """
+        if (
+            dtype.kind != "f"
+            and not (
+                (np.abs(words) <= LARGEST_WHOLE[dtype.itemsize]) & (words == np.rint(words))
+            ).all()
+        ):
+            raise FileError("there is no whole number where one belongs", self._path)
+        return words if dtype.kind == "f" else words.astype(np.int64).astype(dtype)
 
     def one(self, kind: str) -> int:
         """The next number, a whole one."""
         return int(self.take(kind, 1)[0])
 
     @property
-    def rest(self) -> NDArray[Any]:
-        """What is left of a section of text, (n,)."""
+    def rest(self) -> NDArray[np.int64]:
+        """What is left of a section of text, (n,) whole numbers."""
         assert self._words is not None
-        return self._words[self._at :]
+        return self.typed(self._words[self._at :], np.dtype(np.int64))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +126,7 @@ def sections(path: str | Path) -> Sections:
         data = Path(path).read_bytes()
     except OSError as error:
         raise FileError(f"cannot be read: {error.strerror or error}", path) from None
-    head = re.match(rb"\s*\$MeshFormat\s+([\d.]+)\s+([01])\s+(\d+)[ \t]*\r?\n", data)
+    head = re.match(rb"\s*\$MeshFormat\s+(\d+(?:\.\d+)?)\s+([01])\s+(\d+)[ \t]*\r?\n", data)
     if head is None:
         raise FileError("this is no .msh file: it does not begin with $MeshFormat", path)
     binary = head[2] == b"1"
@@ -117,24 +135,39 @@ def sections(path: str | Path) -> Sections:
     one = data[head.end() : head.end() + 4]
     swapped = binary and np.frombuffer(one.ljust(4, b"\0"), "i4")[0] != 1
     bodies = _bodies(data, path)
-    names = {}
-    for line in bodies.get("PhysicalNames", b"").splitlines()[1:]:
-        found = NAME.match(line)
-        if found:
-            names[int(found[1]), int(found[2])] = found[3].decode(errors="replace")
+    names = read_names(bodies.get("PhysicalNames", b""), bodies.get("Comments", b""))
     return Sections(path, float(head[1]), names, bodies, binary, bool(swapped))
 
 
+def _words(body: bytes) -> NDArray[np.float64]:
+    """The numbers in a section of text.
+
+    Raises:
+        ValueError: there is something else in it.
+    """
+    with warnings.catch_warnings():
+        # what NumPy does at the first word that is no number
+        warnings.simplefilter("error", DeprecationWarning)
+        try:
+            return np.fromstring(body, dtype=np.float64, sep=" ")
+        except DeprecationWarning as error:
+            raise ValueError(str(error)) from None
+
+
 def _bodies(data: bytes, path: str | Path) -> dict[str, bytes]:
-    """The bytes between $Name and $EndName; of sections that come twice, the last."""
+    """The bytes between $Name and $EndName, each on a line of its own; of two sections, the last.
+
+    A name of a group may hold such a mark, in quotes.
+    """
     result: dict[str, bytes] = {}
     at = 0
-    mark = re.compile(rb"\$([A-Za-z]\w*)[ \t]*\r?\n")
+    mark = re.compile(rb"^[ \t]*\$([A-Za-z]\w*)[ \t]*\r?\n", re.MULTILINE)
     while (start := mark.search(data, at)) is not None:
         name = start[1]
-        end = data.find(b"$End" + name, start.end())
-        if end < 0:
+        closing = rb"^[ \t]*\$End" + name + rb"[ \t]*\r?(?:\n|\Z)"
+        end = re.compile(closing, re.MULTILINE).search(data, start.end())
+        if end is None:
             raise FileError(f"section ${name.decode()} has no end", path)
-        result[name.decode()] = data[start.end() : end]
-        at = end + len(name) + 4
+        result[name.decode()] = data[start.end() : end.start()]
+        at = end.end()
     return result

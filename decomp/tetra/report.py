@@ -88,7 +88,7 @@ class Report:
         unprojected: nodes that are not on their exact surfaces.
         bridging: tetrahedra with all four corners on the boundary of a region.
         stages: what was done, and for how many seconds.
-        ignored: statements of the model's file that were not used.
+        ignored: statements of the model's file, and regions without interior.
     """
 
     model: str
@@ -255,7 +255,7 @@ def as_text(found: Report) -> list[str]:
         for cell in found.cells
         if "+".join(cell.faces) != cell.name.removeprefix(f"{cell.region}/")
     ]
-    lines += [f"  ignored line {each.line}: {each.statement}" for each in found.ignored]
+    lines += [f"  ignored: {each}" for each in found.ignored]
     if found.stages:
         lines.append("  " + _times(found.stages))
     return lines

@@ -12,6 +12,7 @@ import numpy as np
 from decomp.cells.surface import side_triangles
 from decomp.errors import InputError
 from decomp.optional import needed
+from decomp.plain import plain
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.quality import radius_ratios
 from decomp.vectors import Array, Ints
@@ -142,7 +143,7 @@ def _of_mesh(path: Path) -> Scene:
         corners = mesh.points[triangles]
         group = "sheet" if "|" in name and name.count("/") == 1 else "face"
         parts.append(Part(group, name, group, corners, np.zeros(triangles.shape)))
-    return Scene(path.name, tuple(parts), "quality")
+    return Scene(plain(path.name), tuple(parts), "quality")
 
 
 def _of_grid(path: Path) -> Scene:
@@ -169,4 +170,4 @@ def _of_grid(path: Path) -> Scene:
         else:
             what = SURFACES[kind].value if kind >= 0 else "sheet"
             parts.append(Part("sheet", f"sheet-{number}", what, points[own], radius[own]))
-    return Scene(path.name, tuple(parts), "radius")
+    return Scene(plain(path.name), tuple(parts), "radius")

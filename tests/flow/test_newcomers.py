@@ -38,6 +38,12 @@ FILES = {
     "stretched.csg": "multmatrix([[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(r = 1); }\n",
     "apart.geo": GEO + "solid apart = sphere (0,0,0; 1) and sphere (5,0,0; 1);\ntlo apart;\n",
     "endless.geo": GEO + "solid endless = plane (0,0,0; 0,0,1);\ntlo endless;\n",
+    "far.geo": GEO + "solid far = sphere (1e308,0,0; 1);\ntlo far;\n",
+    "many.geo": GEO
+    + "solid ball = sphere (0,0,0; 0.1);\nsolid row = multitranslate (1,0,0; 999; ball);\n"
+    + "solid many = multitranslate (0,1,0; 999; row);\ntlo many;\n",
+    "twice.geo": GEO + "solid twice = sphere (0,0,0; 1);\nsolid twice = sphere (0,0,0; 2);\n",
+    "tube.geo": GEO + "solid tube = sphere (0,0,0; 1);\n",
     "tangled.geo": GEO
     + "solid a = sphere (0,0,0; 1);\nsolid b = sphere (1,0,0; 1);\ntlo a;\ntlo b;\n",
 }

@@ -87,7 +87,9 @@ def test_save_to_a_wrong_place(tmp_path: Path) -> None:
     with pytest.raises(FileError, match="cannot be written: its directory does not exist"):
         save(ball, tmp_path / "missing" / "x.json")
     with pytest.raises(InputError, match="no UTF-8 form"):
-        save(model(Sphere((0, 0, 0), 1), "\ud800"), tmp_path / "x.json")
+        save(Sphere((0, 0, 0), 1).named("a", bcname="\ud800"), tmp_path / "x.json")
+    with pytest.raises(InputError, match="no form in UTF-8"):
+        model(Sphere((0, 0, 0), 1), "\ud800")
     for name in ("x", "x.geo", "-"):
         with pytest.raises(InputError, match=r"as a suffix for models; use \.json"):
             save(ball, tmp_path / name)
@@ -169,7 +171,7 @@ def test_path_is_in_the_error(tmp_path: Path) -> None:
     path = write(tmp_path, "x.geo", "algebraic3d\ntlo a;\n")
     with pytest.raises(ParseError) as caught:
         load(path)
-    assert str(caught.value) == f"{path}:2:5: the solid 'a' is not defined"
+    assert str(caught.value).startswith(f"{path}:2:5: the solid 'a' is not defined: the file")
     assert caught.value.exit_code == 2
 
 

@@ -297,9 +297,14 @@ WRONG = {
         "algebraic3d\nsolid a = sphere (0,0,0; 1);\nsolid a = sphere (0,0,0; 2);",
         3,
         7,
-        "'a' is defined a second time",
+        "defined in line 2, and with another body in line 3",
     ),
-    "two tlos": ("algebraic3d\nsolid a = sphere (0,0,0; 1);\ntlo a;tlo a;", 3, 11, "tlo already"),
+    "two tlos": (
+        "algebraic3d\nsolid a = sphere (0,0,0; 1);\ntlo a;tlo a -maxh=1;",
+        3,
+        11,
+        "a tlo in line 3, and with other flags",
+    ),
     "negative radius": (
         "algebraic3d\nsolid a = sphere (0,0,0; -1);",
         2,
@@ -367,3 +372,60 @@ def test_wrong_files(case: str) -> None:
 def test_only_surface_patches_are_no_model() -> None:
     with pytest.raises(FileError, match="names no solid"):
         read("solid s = sphere (0,0,0; 1);\ntlo s s;")
+
+
+BRICK = "orthobrick (0, 0, 0; 2, 2, 2)"
+
+
+@pytest.mark.parametrize(
+    "again",
+    [
+        "solid p = plane (0, 0, 1; 0, 0, 1);",
+        "solid p=plane(0,0,1;0,0,1);",
+        "solid p = # the same\n plane ( 0, # once more\n 0.0, 1.; 0,0,1e0 ) ;",
+    ],
+)
+def test_defined_again_with_the_same_body(again: str) -> None:
+    """As Netgen reads it, whatever the blanks, comments and digits."""
+    first = "solid p = plane (0, 0, 1; 0, 0, 1);\n"
+    rest = f"solid a = {BRICK} and p;\n{again}\nsolid b = {BRICK} and p;\ntlo a;\n"
+    once = loads("algebraic3d\n" + first + rest.replace(again, ""), "geo")
+    twice = loads("algebraic3d\n" + first + rest, "geo")
+    assert dumps(twice) == dumps(once)
+
+
+@pytest.mark.parametrize(
+    "again",
+    [
+        "plane (0, 0, 1; 0, 0, -1)",
+        "plane (0, 0, 1; 0, 0, 1) -bc=1",
+        "not plane (0, 0, 1; 0, 0, 1)",
+        "p",
+    ],
+)
+def test_defined_again_with_another_body(again: str) -> None:
+    text = f"algebraic3d\nsolid p = plane (0, 0, 1; 0, 0, 1);\n\n\nsolid p = {again};\n"
+    with pytest.raises(ParseError, match=r"^5:7: .*in line 2, and with another body in line 5"):
+        loads(text, "geo")
+
+
+def test_tlo_twice() -> None:
+    model = loads(f"algebraic3d\nsolid a = {BRICK};\ntlo a -maxh=1;\ntlo a -maxh=1.0;\n", "geo")
+    assert [region.name for region in model.regions] == ["a"]
+    assert [str(each) for each in model.ignored] == ["line 4: tlo a -maxh=1.0"]
+
+
+@pytest.mark.parametrize("word", ["tube", "cylinder", "solid", "or", "point", "gencyl", "tlo"])
+@pytest.mark.parametrize(
+    "text",
+    ["solid {} = sphere (0,0,0; 1);", "tlo {};", "solid a = sphere (0,0,0; 1) -material={};"],
+)
+def test_words_of_the_format_are_no_names(word: str, text: str) -> None:
+    with pytest.raises(ParseError, match=f"'{word}' is a word of the format"):
+        loads("algebraic3d\n" + text.format(word), "geo")
+
+
+@pytest.mark.parametrize("text", ["tlo a;", "tlo a -maxh=1;\ntlo b;", "", "point (1, 0, 0);"])
+def test_no_solid_at_all(text: str) -> None:
+    with pytest.raises(ParseError, match="defines no solid"):
+        loads("algebraic3d\n" + text, "geo")

@@ -254,3 +254,11 @@ def test_wrong_files(case: str) -> None:
 def test_the_first_fault_in_the_file_is_reported() -> None:
     with pytest.raises(UnsupportedError, match="2:1: hull"):
         loads("cube(1);\nhull();\nsphere(inf);", "csg")
+
+
+@pytest.mark.parametrize("special", ["$fe = 0.1", "$fa = 12, $fs = 2", "$fn = 0, $t = 0", "$vpd=1"])
+@pytest.mark.parametrize("call", ["cube(size = 1, {})", "sphere({}, r = 1)", "cylinder(h = 1, {})"])
+def test_special_variables_may_be_given_to_anything(call: str, special: str) -> None:
+    assert loads(call.format(special) + ";", "csg").regions
+    with pytest.raises(ParseError, match="unknown parameter 'fe'"):
+        loads(call.format("fe = 1") + ";", "csg")

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from decomp.plain import plain
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.ordering import in_vtk_order
 from decomp.vectors import Ints
@@ -20,7 +21,7 @@ def encoded(mesh: TetMesh) -> bytes:
     lines = ["MeshVersionFormatted 2", "Dimension 3"]
     for group in mesh.groups:
         what = "Tetrahedra" if group.dimension == 3 else "Triangles"
-        lines.append(f"# {what} {group.tag}: {group.name}")
+        lines.append(f"# {what} {group.tag}: {plain(group.name)}")
     lines += ["Vertices", str(len(mesh.points))]
     lines += [f"{x!r} {y!r} {z!r} 0" for x, y, z in mesh.points.tolist()]
     lines += _elements(f"Triangles{end}", mesh.triangles, mesh.triangle_tags)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from decomp.tetra.mesh import TetMesh
+from decomp.tetra.msh_names import names_section
 
 
 def physical_names(mesh: TetMesh) -> bytes:
@@ -12,6 +13,4 @@ def physical_names(mesh: TetMesh) -> bytes:
     one alone, and conditions are set on surfaces.
     """
     groups = sorted(mesh.groups, key=lambda group: (-group.dimension, group.tag))
-    lines = [f'{group.dimension} {group.tag} "{group.name}"' for group in groups]
-    text = "\n".join(["$PhysicalNames", str(len(lines)), *lines, "$EndPhysicalNames", ""])
-    return text.encode()
+    return names_section([((group.dimension, group.tag), group.name) for group in groups])

@@ -18,6 +18,7 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from decomp.plain import plain
 from decomp.tetra.convert import VTK_TYPES, region_names, region_numbers
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.ordering import in_vtk_order
@@ -93,5 +94,5 @@ def _array(name: str, values: NDArray[Any], counted: bool = False) -> str:
     data = np.ascontiguousarray(values).tobytes()
     text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
     kind = TYPES[values.dtype.name]
-    label = quoteattr(name)
+    label = quoteattr(plain(name))
     return f'<DataArray type="{kind}" Name={label}{width} format="binary">{text}</DataArray>'

@@ -11,6 +11,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
+from decomp.plain import plain
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.ordering import in_vtk_order
 from decomp.vectors import Array, Ints
@@ -27,7 +28,7 @@ def encoded(mesh: TetMesh) -> bytes:
     lines = [
         '<?xml version="1.0"?>',
         '<Xdmf Version="3.0">',
-        f"<Domain><Grid Name={quoteattr(mesh.name)}>",
+        f"<Domain><Grid Name={quoteattr(plain(mesh.name))}>",
         f'<Geometry GeometryType="XYZ">{_item(mesh.points)}</Geometry>',
         f'<Topology TopologyType="Mixed" NumberOfElements="{len(tags)}">{_item(topology)}'
         "</Topology>",
@@ -48,7 +49,7 @@ def _typed(elements: Ints) -> Ints:
 def _names(mesh: TetMesh) -> str:
     ordered = sorted(mesh.groups, key=lambda group: -group.dimension)
     entries = (
-        f'<map key={quoteattr(group.name)} dim="{group.dimension}">{group.tag}</map>'
+        f'<map key={quoteattr(plain(group.name))} dim="{group.dimension}">{group.tag}</map>'
         for group in ordered
     )
     return f"<main>{''.join(entries)}</main>"
