@@ -52,7 +52,8 @@ def mesh(
 
     Args:
         source: a geometry, or what one can be made of.
-        size: largest edge length wanted, in model units.
+        size: edge length wanted, in model units: the mean comes out a little below it, and no edge
+            is longer than 1.5 times as much.
         layers: at least so many elements across thin parts.
         elements_per_circle: at least so many edges around a full circle of a curved face.
         order: 1 for straight elements, 2 for quadratic ones.
@@ -90,12 +91,14 @@ def mesh(
         tell("curving", FILLED)
     points, tets, triangles, left = _elements(given, made, order)
     tagged, part = made.fit.tagged, made.fit.part
-    groups, tags = surface_groups(geometry, given.surface, given.known, given.plan, tagged, sheets)
+    groups, tags = surface_groups(
+        geometry, given.surface, given.known, given.plan, tagged, sheets, given.sizes
+    )
     cell = given.known.cell_of(part) + 1
     if volumes == "cells":
-        solid, tet_tags = cell_groups(geometry, given.known), cell
+        solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
     else:
-        solid, tet_tags = region_groups(geometry), given.known.region_of(part) + 1
+        solid, tet_tags = region_groups(geometry, given.sizes), given.known.region_of(part) + 1
     result = TetMesh(
         geometry.model.name,
         points,
@@ -105,6 +108,7 @@ def mesh(
         tags[tags > 0],
         (*solid, *groups),
         left,
+        lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
     )
     return with_fields(geometry, result, asked, cell) if asked else result
 

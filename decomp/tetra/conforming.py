@@ -21,6 +21,7 @@ from decomp.tetra.flipping import flipped
 from decomp.tetra.layout import Layout
 from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
+from decomp.tetra.shortening import LONGEST, Lengths
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder, renewed
@@ -62,6 +63,7 @@ def conformed(
     finder: Finder,
     plan: Layout,
     elements: Elements,
+    asked: Lengths,
     diagonal: float,
 ) -> Conformed:
     """Tag and move.
@@ -73,6 +75,7 @@ def conformed(
         tagger, finder: of patches and of places.
         plan: the complex.
         elements: of it.
+        asked: lengths; smoothing leaves no edge longer than these allow, but those that are.
         diagonal: of the model.
     """
     for last in range(ROUNDS - 1, -1, -1):
@@ -91,7 +94,7 @@ def conformed(
         if mended is None:
             break
         points, tets, part = mended
-    projector.smooth()
+    projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
     for _ in range(FLIPS):
         better = flipped(projector.points, tets, part, tagged.triangles)
         if better is None:
@@ -99,7 +102,7 @@ def conformed(
         tets, part = better
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
-        projector.smooth()
+        projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
     for turn in range(SLIPS + 1):
         targets, slipped = renewed(targets, finder.targets(projector.points, tagged))
         if not len(slipped) or turn == SLIPS:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import PatchKind
 from decomp.errors import InputError
 from decomp.geometry import Geometry
@@ -15,11 +16,11 @@ from decomp.tetra.layout import Layout
 from decomp.tetra.mesh import Group, GroupKind
 from decomp.tetra.surface import MeshSurface
 from decomp.tetra.tagging import Tagged
-from decomp.vectors import Ints
+from decomp.vectors import Array, Ints
 
 
-def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
-    """A group for each cell, in their order."""
+def cell_groups(geometry: Geometry, cells: CellMap, sizes: Array) -> list[Group]:
+    """A group for each cell, in their order; the largest lengths (r,) are asked in the regions."""
     found = []
     for number, cell in enumerate(cells.cells):
         region = geometry.model.regions[int(cells.region[number])]
@@ -32,13 +33,14 @@ def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
                 cell.faces,
                 cell.volume,
                 option_number(region.options, "maxh"),
+                length=float(sizes[cells.region[number]]),
             )
         )
     return found
 
 
-def region_groups(geometry: Geometry) -> list[Group]:
-    """A group for each region, in their order."""
+def region_groups(geometry: Geometry, sizes: Array) -> list[Group]:
+    """A group for each region, in their order; the largest lengths (r,) are asked in them."""
     return [
         Group(
             GroupKind.REGION,
@@ -48,6 +50,7 @@ def region_groups(geometry: Geometry) -> list[Group]:
             (),
             geometry.regions[number].volume,
             option_number(region.options, "maxh"),
+            length=float(sizes[number]),
         )
         for number, region in enumerate(geometry.model.regions)
     ]
@@ -60,6 +63,7 @@ def surface_groups(
     plan: Layout,
     tagged: Tagged,
     sheets: bool,
+    sizes: Array,
 ) -> tuple[list[Group], Ints]:
     """Groups of boundary faces, interfaces and sheets, and each triangle's tag, 0 for none.
 
@@ -69,6 +73,7 @@ def surface_groups(
         geometry, surface, cells, plan: of the model.
         tagged: the triangles.
         sheets: whether sheets get groups.
+        sizes: (r,) the largest length asked in each region.
     """
     names = [region.name for region in geometry.model.regions]
     groups: list[Group] = []
@@ -84,6 +89,9 @@ def surface_groups(
             full = [f"{names[r]}/{face.name}" for (r, _), face in zip(sides, faces, strict=True)]
             numbers = [option_number(face.options, "bc") for face in faces]
             bc = next((int(n) for n in numbers if n is not None), None)
+            every = [face_maxh(geometry.regions[r], f) for r, f in sides]
+            maxh = min((length for length in every if length is not None), default=None)
+            least = min(float(sizes[r]) for r, _ in sides)
             kind = GroupKind.FACE if len(sides) == 1 else GroupKind.INTERFACE
             of_face[sides] = len(groups) + 1
             groups.append(
@@ -92,7 +100,9 @@ def surface_groups(
                     len(groups) + 1,
                     "|".join(full),
                     tuple(names[r] for r, _ in sides),
+                    maxh=maxh,
                     bc=bc,
+                    length=least if maxh is None else min(least, maxh),
                 )
             )
         tag_of_patch[patch] = of_face[sides]
@@ -123,6 +133,23 @@ def _sheet_groups(
         name = f"{region}/{one}|{two}"
         groups.append(Group(GroupKind.SHEET, len(groups) + 1, name, (region,)))
     tags[rows] = first + 1 + which.reshape(-1)
+
+
+def face_maxh(boundary: RegionBoundary, face: int) -> float | None:
+    """The largest edge length that a file asks for on a face, None for none.
+
+    Raises:
+        InputError: it is no number above 0.
+    """
+    given = boundary.faces[face]
+    length = option_number(given.options, "maxh")
+    if length is None:
+        return None
+    if not 0 < length < float("inf"):
+        raise InputError(
+            f"maxh of face {boundary.name}/{given.name} must be positive, got {length}"
+        )
+    return float(length)
 
 
 def option_number(options: Mapping[str, Any], key: str) -> Any:

@@ -1,0 +1,140 @@
+"""Edges longer than asked are cut in two.
+
+TetWild aims at the lengths asked, and leaves some edges almost twice as long. They are cut before
+nodes are put in place, so that new ones on faces, sheets and edges go there with all others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.geometry import Geometry
+from decomp.tetra.cells import CellMap
+from decomp.tetra.cutting import apart, halved
+from decomp.tetra.faces import EDGES, edges_of
+from decomp.tetra.groups import face_maxh
+from decomp.tetra.layout import TRIANGLE_EDGES, Layout
+from decomp.tetra.tagging import Tagged
+from decomp.vectors import Array, Ints, norm
+
+LONGEST = 1.5
+"""No edge is longer than so many of the length asked in its region, or on its face."""
+CUT = 1.4
+"""Edges are cut that are longer than so many: nodes still move afterwards."""
+ROUNDS = 12
+"""The most passes; each cuts the longest edges, one for each tetrahedron."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """The edges of tetrahedra, and what is asked of them.
+
+    Args:
+        ends: (e, 2), in the order of `edges_of`.
+        of_tet: (m, 6) their numbers.
+        of_triangle: (k, 3) their numbers.
+        asked: (e,) the length, in model units.
+    """
+
+    ends: Ints
+    of_tet: Ints
+    of_triangle: Ints
+    asked: Array
+
+    def excess(self, points: Array) -> Array:
+        """How long each edge (e,) is, in parts of the length asked."""
+        return norm(points[self.ends[:, 1]] - points[self.ends[:, 0]]) / self.asked
+
+
+@dataclass(frozen=True, eq=False)
+class Lengths:
+    """What is asked, in model units.
+
+    Args:
+        of_part: (p,) in each part of a cell, its region's.
+        of_patch: (p,) on each patch of the complex; infinite where its faces ask for nothing.
+    """
+
+    of_part: Array
+    of_patch: Array
+
+    def edges(self, tets: Ints, part: Ints, tagged: Tagged) -> Edges:
+        """The edges of tetrahedra (m, 4) of parts (m,), with tagged triangles."""
+        own = self.of_patch[tagged.patches]
+        return edges_asked(tets, self.of_part[part], tagged.triangles, own)
+
+
+def lengths_asked(geometry: Geometry, cells: CellMap, plan: Layout, sizes: Array) -> Lengths:
+    """The lengths asked of a model's cells and patches.
+
+    Args:
+        geometry, cells, plan: of the model.
+        sizes: (r,) the largest length in each region.
+
+    Raises:
+        InputError: the `maxh` of a face is no number above 0.
+    """
+    found = np.full(len(plan.sides), np.inf)
+    for patch, sides in enumerate(plan.sides):
+        for region, face in sides:
+            length = face_maxh(geometry.regions[region], face)
+            if length is not None:
+                found[patch] = min(found[patch], length)
+    return Lengths(sizes[cells.region[cells.cell]], found)
+
+
+def edges_asked(tets: Ints, limit: Array, triangles: Ints, own: Array) -> Edges:
+    """All edges; one of several tetrahedra and triangles has the least of their lengths.
+
+    Args:
+        tets: (m, 4).
+        limit: (m,) the length asked in each.
+        triangles: (k, 3) of them.
+        own: (k,) the length asked on each.
+    """
+    ends, of_tet = edges_of(tets, EDGES)
+    width = int(tets.max(initial=0)) + 1
+    sides = np.sort(triangles[:, TRIANGLE_EDGES], axis=2)
+    of_triangle = np.searchsorted(
+        ends[:, 0] * width + ends[:, 1], sides[:, :, 0] * width + sides[:, :, 1]
+    )
+    least = np.full(len(ends), np.inf)
+    np.minimum.at(least, of_tet, limit[:, None])
+    np.minimum.at(least, of_triangle, own[:, None])
+    return Edges(ends, of_tet, of_triangle, least)
+
+
+def shortened(
+    points: Array, tets: Ints, part: Ints, tagged: Tagged, asked: Lengths
+) -> tuple[Array, Ints, Ints]:
+    """Cut edges in two until none is longer than `CUT` allows.
+
+    Args:
+        points: (n, 3).
+        tets: (m, 4), positively oriented.
+        part: (m,) of each; both halves keep it.
+        tagged: triangles with their patches.
+        asked: lengths.
+
+    Returns:
+        points, tetrahedra and parts.
+    """
+    limit = asked.of_part[part]
+    triangles, own = tagged.triangles, asked.of_patch[tagged.patches]
+    for _ in range(ROUNDS):
+        edges = edges_asked(tets, limit, triangles, own)
+        excess = edges.excess(points)
+        long = np.flatnonzero(excess > CUT)
+        if not len(long):
+            break
+        chosen, _ = apart(long, edges.of_tet, excess)
+        new = np.full(len(edges.ends), -1, dtype=np.int64)
+        new[chosen] = len(points) + np.arange(len(chosen))
+        points = np.concatenate([points, points[edges.ends[chosen]].mean(axis=1)])
+        tets, rows = halved(tets, EDGES, new[edges.of_tet])
+        part, limit = part[rows], limit[rows]
+        triangles, rows = halved(triangles, TRIANGLE_EDGES, new[edges.of_triangle])
+        own = own[rows]
+    return points, tets, part
