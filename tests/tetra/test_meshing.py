@@ -106,7 +106,7 @@ def test_sizes_of_regions_and_faces_are_lengths_of_edges() -> None:
     found = report(mesh)
     assert [region.edges and region.edges.asked for region in found.regions] == [0.8, 0.4]
     assert [(s.name, s.maxh) for s in found.surfaces if s.maxh] == [("a/cut.top", 0.2)]
-    assert mesh.group("a/cut.top").maxh == 0.2
+    assert mesh.group("a/cut.top", 2).maxh == 0.2
     assert mesh.group("b/beside.xmax", 2).maxh is None
     (own,) = (surface.edges for surface in found.surfaces if surface.edges is not None)
     assert own.asked == 0.2
