@@ -81,9 +81,7 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     tagged = tagger.tagged(points, part, faces_of(tets))
     for _ in range(CUTS):
         points, tets, part = shortened(points, tets, part, tagged, given.asked)
-        fit = conformed(
-            points, tets, part, tagger, finder, plan, given.elements, given.asked, geometry.diagonal
-        )
+        fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
         longest = given.asked.edges(tets, part, tagged).excess(points).max()
         if longest <= LONGEST:
