@@ -167,10 +167,12 @@ def _wrong_volumes(geometry: Geometry, errors: Sequence[VolumeError], most: floa
     for region, error in zip(geometry.regions, errors, strict=True):
         if abs(error.unexplained) > most:
             content = (1 + error.whole) * region.volume
+            besides = ""
+            if abs(error.chords) > TOLERANCE:
+                besides = f" besides the {error.chords:+.2g} of straight edges"
             yield (
                 f"region {region.name} has volume {content:.9g} in place of {region.volume:.9g}: "
-                f"off by {abs(error.whole):.2g}, by {abs(error.unexplained):.2g} without what "
-                f"straight edges leave out, more than {most:g}"
+                f"off by {abs(error.unexplained):.2g}{besides}, more than {most:g}"
             )
 
 
