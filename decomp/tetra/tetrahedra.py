@@ -12,7 +12,7 @@ from decomp.tetra.classify import classified
 from decomp.tetra.conforming import Conformed, conformed
 from decomp.tetra.faces import faces_of
 from decomp.tetra.preparation import Prepared, Progress
-from decomp.tetra.shortening import LONGEST, shortened
+from decomp.tetra.shortening import LONGEST, shortened, tightened
 from decomp.tetra.splitting import freed
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagger
@@ -79,13 +79,16 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     tagger = Tagger(geometry, given.surface, known, plan, epsilon)
     finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
     tagged = tagger.tagged(points, part, faces_of(tets))
+    aimed = given.asked
     for _ in range(CUTS):
-        points, tets, part = shortened(points, tets, part, tagged, given.asked)
+        points, tets, part = shortened(points, tets, part, tagged, aimed)
         fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
         longest = given.asked.edges(tets, part, tagged).excess(points).max()
-        if longest <= LONGEST:
+        tighter = tightened(points, tets, part, tagged, given.asked, aimed)
+        if longest <= LONGEST and tighter is None:
             break
+        aimed = tighter or aimed
     far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * epsilon)
     return Filled(fit, finder, far)
 
