@@ -28,6 +28,8 @@ ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "docs" / "meshes.md"
 LEAST, MEAN = 8.0, 45.0
 VOLUME, SURFACE = 5e-3, 1e-12
+UNMEASURED = " |  |  | "
+"""In rows that are older than the columns of lengths."""
 SHORT, LONG = 0.75, 1.05
 """The mean edge is at least the first of what was wanted, at most the second of what was asked."""
 
@@ -160,6 +162,8 @@ def document(lines: dict[str, str]) -> str:
     missing = [name for name in models() if name not in lines]
     text = PREFACE + f"{len(lines)} of {len(models())} models"
     text += f"; not made: {', '.join(missing)}.\n\n" if missing else ".\n\n"
+    if any(UNMEASURED in line for line in lines.values()):
+        text += "Rows without lengths of edges were made before these were measured and held.\n\n"
     text += f"| {' | '.join(HEADINGS)} |\n"
     text += "| --- |" + " ---: |" * (len(HEADINGS) - 2) + " --- |\n"
     return text + "\n".join(lines.values()) + "\n"
