@@ -22,15 +22,21 @@ import decomp
 from benchmarks.skeleton_table import models
 from decomp.carriers import Plane
 from decomp.files.whole_file import write_whole
+from decomp.tetra.shortening import LONGEST
 
 ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "docs" / "meshes.md"
 LEAST, MEAN = 8.0, 45.0
 VOLUME, SURFACE = 5e-3, 1e-12
+UNMEASURED = " |  |  | "
+"""In rows that are older than the columns of lengths."""
+SHORT, LONG = 0.75, 1.05
+"""The mean edge is at least the first of what was wanted, at most the second of what was asked."""
 
 HEADINGS = (
     "model", "regions", "cells", "tets", "nodes", "seconds", "least dihedral", "mean of the least",
-    "volume error", "off surface", "left off", "bridging", "groups in Gmsh", "check",
+    "mean edge", "longest edge", "volume error", "off surface", "left off", "bridging",
+    "groups in Gmsh", "check",
 )  # fmt: skip
 
 PREFACE = f"""\
@@ -39,7 +45,11 @@ PREFACE = f"""\
 Written by `python -m benchmarks.mesh_table`; do not edit. Each model is meshed with `decomp mesh`
 at its default size, verified with `decomp check` and opened with Gmsh's library. `seconds` are the
 report's, all stages together. `mean of the least` is the mean over the tetrahedra of their least
-dihedral angle. `off surface` is the greatest distance of a boundary node from its surface, but for
+dihedral angle. `mean edge` and `longest edge` are in parts of the length asked for in a region or
+on a face with a `-maxh`, the least and the greatest of all such; the longest may have {LONGEST:g},
+the mean {LONG:g}, and no less than {SHORT:g} of the mean of what was wanted, which is less than
+asked where curvature, thin places, neighbours or the chords on curved faces want less. `off
+surface` is the greatest distance of a boundary node from its surface, but for
 those `left off`, which are counted; `bridging` are tetrahedra with all four corners on the
 boundary. Required: no shortcoming in the check (nothing inverted, no face in three tetrahedra, no
 tetrahedron in a cell that is not its own, every element in one group), angles of {LEAST:g} and
@@ -120,6 +130,11 @@ def line_of(name: str, row: dict[str, Any]) -> str:
     def told(text: str, good: bool) -> str:
         return text if good else f"**{text}**"
 
+    edges = [each["edges"] for each in (*row["regions"], *row["surfaces"]) if each["edges"]]
+    means = sorted(each["mean"] / each["asked"] for each in edges)
+    longest = max(each["longest"] / each["asked"] for each in edges)
+    about = all(SHORT * e["wanted"] <= e["mean"] <= LONG * e["asked"] for e in edges)
+    spread = " to ".join(dict.fromkeys(f"{value:.2f}" for value in (means[0], means[-1])))
     least, mean = quality["least_dihedral"], quality["mean_least_dihedral"]
     cells = [
         name,
@@ -130,6 +145,8 @@ def line_of(name: str, row: dict[str, Any]) -> str:
         f"{seconds:.0f}",
         told(f"{least:.1f}", least >= LEAST),
         told(f"{mean:.1f}", mean >= MEAN),
+        told(spread, about),
+        told(f"{longest:.2f}", longest <= LONGEST),
         told(f"{checked['volume_error']:.1e}", checked["volume_error"] <= VOLUME),
         told(f"{row['off_surface']:.1e}", row["off_surface"] <= SURFACE),
         str(row["unprojected"]),
@@ -145,6 +162,8 @@ def document(lines: dict[str, str]) -> str:
     missing = [name for name in models() if name not in lines]
     text = PREFACE + f"{len(lines)} of {len(models())} models"
     text += f"; not made: {', '.join(missing)}.\n\n" if missing else ".\n\n"
+    if any(UNMEASURED in line for line in lines.values()):
+        text += "Rows without lengths of edges were made before these were measured and held.\n\n"
     text += f"| {' | '.join(HEADINGS)} |\n"
     text += "| --- |" + " ---: |" * (len(HEADINGS) - 2) + " --- |\n"
     return text + "\n".join(lines.values()) + "\n"

@@ -18,14 +18,18 @@ from decomp.arguments import called, one_of, switch
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
+from decomp.tetra.cells import OUTSIDE
+from decomp.tetra.check_names import resolved
 from decomp.tetra.child import TimeLimit
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.mesh import TetMesh
+from decomp.tetra.mesh import Group, TetMesh
+from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.preparation import Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
 from decomp.tetra.tetrahedra import Filled, filled
+from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
 
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
@@ -52,7 +56,8 @@ def mesh(
 
     Args:
         source: a geometry, or what one can be made of.
-        size: largest edge length wanted, in model units.
+        size: edge length wanted, in model units: the mean comes out a little below it, and no edge
+            is longer than 1.5 times as much.
         layers: at least so many elements across thin parts.
         elements_per_circle: at least so many edges around a full circle of a curved face.
         order: 1 for straight elements, 2 for quadratic ones.
@@ -88,37 +93,58 @@ def mesh(
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
     if order == 2:
         tell("curving", FILLED)
-    points, tets, triangles, left = _elements(given, made, order)
+    points, tets, triangles = _elements(given, made, order)
     tagged, part = made.fit.tagged, made.fit.part
-    groups, tags = surface_groups(geometry, given.surface, given.known, given.plan, tagged, sheets)
+    groups, tags = surface_groups(
+        geometry, given.surface, given.known, given.plan, tagged, sheets, given.sizes
+    )
+    triangles, tags = triangles[tags > 0], tags[tags > 0]
     cell = given.known.cell_of(part) + 1
     if volumes == "cells":
-        solid, tet_tags = cell_groups(geometry, given.known), cell
+        solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
     else:
-        solid, tet_tags = region_groups(geometry), given.known.region_of(part) + 1
+        solid = region_groups(geometry, given.sizes)
+        tet_tags = given.known.region_of(part) + 1
     result = TetMesh(
         geometry.model.name,
         points,
         tets,
         tet_tags,
-        triangles[tags > 0],
-        tags[tags > 0],
+        triangles,
+        tags,
         (*solid, *groups),
-        left,
+        _unprojected(given, points, triangles, tags, groups),
+        lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
         source=geometry.model.source,
     )
     return with_fields(geometry, result, asked, cell) if asked else result
 
 
-def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints, Ints]:
-    """Points, tetrahedra, triangles, and nodes that are not on all that they belong to."""
+def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints]:
+    """Points, tetrahedra and triangles."""
     fit = made.fit
     if order == 1:
-        return fit.points, fit.tets, fit.tagged.triangles, fit.left
+        return fit.points, fit.tets, fit.tagged.triangles
     corners = given.plan.complex.points
-    curved = quadratic(fit.points, fit.tets, fit.tagged, made.finder, given.elements, corners)
-    left = np.concatenate([fit.left, curved.left])
-    return curved.points, curved.tets, curved.triangles, left
+    return quadratic(fit.points, fit.tets, fit.tagged, made.finder, given.elements, corners)
+
+
+def _unprojected(
+    given: Prepared, points: Array, triangles: Ints, tags: Ints, groups: Sequence[Group]
+) -> Ints:
+    """The nodes of groups of triangles that are off their exact surfaces, ascending."""
+    known = given.known
+    cells = known.cell_of(known.part)
+    names = [known.cells[k].name if k != OUTSIDE else "" for k in cells.tolist()]
+    off = off_surfaces(
+        given.geometry,
+        points,
+        triangles,
+        tags,
+        resolved({(group.dimension, group.tag): group.name for group in groups}, given.geometry),
+        known_sheets(given.surface, given.elements, names),
+    )
+    return np.flatnonzero(off > TOLERANCE * given.geometry.diagonal)
 
 
 def _between(tell: Progress, start: float, end: float) -> Progress:

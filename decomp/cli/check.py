@@ -43,15 +43,16 @@ def register(commands: Any) -> None:
         type=positive,
         default=VOLUME_ERROR,
         metavar="E",
-        help=f"of a region, relative, at most (default {VOLUME_ERROR:g})",
+        help="of a region, relative, at most, besides what straight edges of their length leave "
+        f"out at curved faces (default {VOLUME_ERROR:g})",
     )
     parser.add_argument(
         "--unprojected",
         type=int,
         default=0,
         metavar="N",
-        help="so many boundary nodes may be off their surface, as the report of `decomp mesh` "
-        "counts them (default 0)",
+        help="so many nodes of faces, interfaces and sheets may be off their exact surfaces, as "
+        "the report of `decomp mesh` counts them (default 0)",
     )
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
@@ -93,8 +94,9 @@ def as_text(found: Checked, path: Path) -> list[str]:
     """What was found, as lines for people."""
     lines = [
         f"{path}: {found.tets} tetrahedra, {found.nodes} nodes, {found.groups} groups",
-        f"  volumes of regions within {found.volume_error:.1e}",
-        f"  boundary nodes within {found.off_surface:.1e} of their surface, {found.stray} off it",
+        f"  volumes of regions within {found.volume_error:.1e}; straight edges of their length "
+        f"explain {found.chord_error:.1e}, {found.unexplained_error:.1e} is left",
+        f"  nodes within {found.off_surface:.1e} of their exact surfaces, {found.stray} off them",
     ]
     lines += [f"  FAILS: {line}" for line in found.shortcomings]
     if not found.shortcomings:

@@ -20,7 +20,7 @@ EXAMPLES = """\
 examples:
   decomp mesh part.geo                          part.msh, sizes from the model
   decomp mesh part.geo -o part.vtu              for ParaView
-  decomp mesh part.geo --size 2 --layers 3      edges up to 2, three elements across thin walls
+  decomp mesh part.geo --size 2 --layers 3      edges of about 2, three elements across walls
   decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
   decomp mesh part.geo --volumes regions --no-sheets
                                                 one volume per region, no inner surfaces
@@ -71,7 +71,8 @@ def _size_options(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=positive,
         metavar="H",
-        help="largest edge, in model units (default: from the model)",
+        help="length of edges, in model units: none is longer than 1.5 H, and where nothing asks "
+        "for shorter ones they are 0.75 to 1.05 H in the mean (default: from the model)",
     )
     group.add_argument(
         "--layers",

@@ -89,11 +89,11 @@ def _flag(value: Any) -> bool | None:
 
 _MAXH = Known("a length above zero", _length)
 _BC = Known("a whole number", _whole)
-OF_FACES = {"maxh": _MAXH, "bc": _BC, "bcname": Known("a text with a form in UTF-8", _text)}
+OF_FACES = {"maxh": _MAXH, "bc": _BC, "bcname": Known("a text", _text)}
 OF_REGIONS = {
     "maxh": _MAXH,
     "bc": _BC,
-    "material": Known("a text with a form in UTF-8", _text),
+    "material": Known("a text", _text),
     "col": Known("three numbers", _colour),
     "transparent": Known("True or False", _flag),
     "layer": Known("a whole number", _whole),

@@ -2,38 +2,41 @@
 
 1. By itself: elements the right way round, faces, tags (`check_structure`).
 2. Its names are the model's (`check_names`).
-3. Regions have their volumes.
-4. Nodes of boundary triangles are on their surfaces.
+3. Regions have their volumes, but for what straight edges leave out.
+4. Nodes of triangles are on the surfaces that their groups are named for.
 5. No tetrahedron reaches out of its region or cell.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from decomp.arguments import called, whole
-from decomp.compute import skeleton
+from decomp.complex.refine_elements import Elements
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.paths import path_of
-from decomp.tetra.check_cells import KnownCells, known_cells
+from decomp.tetra.check_cells import KnownCells, cells_named
 from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings
+from decomp.tetra.check_volumes import VolumeError, volume_errors
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
-from decomp.tetra.quality import volumes
+from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Ints, place, positive
+from decomp.vectors import Array, Ints, place, positive
 
 EPSILON = 2e-3
 """Default of what meshes may leave their cells by, relative to the region's diagonal."""
 VOLUME_ERROR = 5e-3
+FINENESS = 0.5
+"""Sheets are drawn to this part of epsilon."""
 REACH = 2.0
 """Tetrahedra may reach so many epsilons into a cell that is not theirs."""
 
@@ -46,8 +49,10 @@ class Checked:
         shortcomings: one line each; none if the mesh is right.
         tets, nodes, groups: how many it has.
         volume_error: the largest of a region, relative.
-        off_surface: largest distance of a boundary node from its surface, in model units.
-        stray: boundary nodes that are off their surface.
+        chord_error: the largest part of it that straight edges of their length explain.
+        unexplained_error: the largest that is left without that.
+        off_surface: largest distance of a node from a surface that it should be on, in model units.
+        stray: nodes that are off their surfaces (faces, interfaces and sheets).
     """
 
     shortcomings: tuple[str, ...]
@@ -55,6 +60,8 @@ class Checked:
     nodes: int
     groups: int
     volume_error: float
+    chord_error: float
+    unexplained_error: float
     off_surface: float
     stray: int
 
@@ -74,9 +81,10 @@ def check(
         source: a geometry, or what one can be made of.
         mesh: a mesh, or the path of a .msh file.
         epsilon: the mesh may be off the exact cells by so much, relative to a region's diagonal.
-        volume_error: of a region, relative, at most.
-        unprojected: so many nodes of the boundary may be off their surfaces (the report of
-            `decomp.mesh` counts them).
+        volume_error: of a region, relative, at most, besides what straight edges of their length
+            leave out at curved faces.
+        unprojected: so many nodes of faces, interfaces and sheets may be off them (the report
+            of `decomp.mesh` counts them).
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
@@ -95,22 +103,35 @@ def check(
     names = resolved(read.names, geometry)
     tell("looking at elements and faces", 0.1)
     lines = list(structural_shortcomings(read))
-    cells = None
+    cells = sheets = None
     if names.cells or names.sheets:
-        found = skeleton(geometry, progress=lambda what, done: tell(what, 0.2 + 0.6 * done))
         given = {*names.cells.values(), *(n for s in names.sheets.values() for n in sides(s))}
-        cells = known_cells(found, given)
+        tolerance = FINENESS * epsilon * min(region.diagonal for region in geometry.regions)
+        cells = cells_named(
+            geometry, given, tolerance, lambda what, done: tell(what, 0.2 + 0.6 * done)
+        )
+        elements = Elements(cells.surface.complex)
+        sheets = known_sheets(cells.surface, elements, cells.name_of_site)
     tell("comparing with the model", 0.8)
     lines += name_shortcomings(names, geometry, cells.names if cells else [])
     lines += _bare_interfaces(read, names, geometry)
-    worst, more = _volumes(read, names, geometry, volume_error)
-    lines += more
-    off, stray, more = _surfaces(read, names, geometry, unprojected)
-    lines += more
+    errors = volume_errors(read, _regions(read.tet_tags, names, geometry), names, geometry)
+    lines += _wrong_volumes(geometry, errors, volume_error)
+    off = off_surfaces(geometry, read.points, read.triangles, read.triangle_tags, names, sheets)
+    stray = int((off > TOLERANCE * geometry.diagonal).sum())
+    lines += _strayed(read, off, stray, unprojected)
     tell("looking across interfaces", 0.9)
     lines += _reaching(read, names, geometry, cells, epsilon)
     return Checked(
-        tuple(lines), len(read.tets), len(read.points), len(read.names), worst, off, stray
+        tuple(lines),
+        len(read.tets),
+        len(read.points),
+        len(read.names),
+        max(abs(error.whole) for error in errors),
+        max(abs(error.chords) for error in errors),
+        max(abs(error.unexplained) for error in errors),
+        float(off.max(initial=0.0)),
+        stray,
     )
 
 
@@ -148,45 +169,26 @@ def _bare_interfaces(mesh: ReadMesh, names: Names, geometry: Geometry) -> Iterat
     yield from counted(bare, places, "faces between regions without a physical group")
 
 
-def _volumes(
-    mesh: ReadMesh, names: Names, geometry: Geometry, most: float
-) -> tuple[float, list[str]]:
-    regions = _regions(mesh.tet_tags, names, geometry)
-    contents = volumes(mesh.points, mesh.tets)
-    worst, lines = 0.0, []
-    for number, region in enumerate(geometry.regions):
-        content = float(contents[regions == number].sum())
-        error = abs(content / region.volume - 1)
-        worst = max(worst, error)
-        if error > most:
-            lines.append(
+def _wrong_volumes(geometry: Geometry, errors: Sequence[VolumeError], most: float) -> Iterator[str]:
+    for region, error in zip(geometry.regions, errors, strict=True):
+        if abs(error.unexplained) > most:
+            content = (1 + error.whole) * region.volume
+            besides = ""
+            if abs(error.chords) > TOLERANCE:
+                besides = f" besides the {error.chords:+.2g} of straight edges"
+            yield (
                 f"region {region.name} has volume {content:.9g} in place of {region.volume:.9g}: "
-                f"off by {error:.2g}, more than {most:g}"
+                f"off by {abs(error.unexplained):.2g}{besides}, more than {most:g}"
             )
-    return worst, lines
 
 
-def _surfaces(
-    mesh: ReadMesh, names: Names, geometry: Geometry, allowed: int
-) -> tuple[float, int, list[str]]:
-    """Largest distance of boundary nodes from their surfaces, how many are off, shortcomings."""
-    off = np.zeros(len(mesh.points))
-    for tag, owners in names.faces.items():
-        nodes = np.unique(mesh.triangles[mesh.triangle_tags == tag])
-        for region, face in owners:
-            boundary = geometry.regions[region]
-            carrier = boundary.carriers[boundary.faces[face].carrier]
-            far = np.abs(carrier.signed_distance(mesh.points[nodes]))
-            off[nodes] = np.maximum(off[nodes], far)
-    stray = int((off > TOLERANCE * geometry.diagonal).sum())
-    worst = int(np.argmax(off))
-    lines = []
+def _strayed(mesh: ReadMesh, off: Array, stray: int, allowed: int) -> Iterator[str]:
     if stray > allowed:
-        lines.append(
-            f"{stray} boundary nodes are off their surface, by up to {off[worst]:.2g} "
+        worst = int(np.argmax(off))
+        yield (
+            f"{stray} nodes are off their exact surfaces, by up to {off[worst]:.2g} "
             f"at {place(mesh.points[worst])}" + (f" ({allowed} may be)" if allowed else "")
         )
-    return float(off[worst]), stray, lines
 
 
 def _reaching(

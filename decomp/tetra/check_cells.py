@@ -1,14 +1,18 @@
-"""Where points are in the cells of a skeleton, for checking meshes; shares nothing with meshing."""
+"""Where points are in the cells of a skeleton, for checking meshes."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from decomp.certificate.distance import triangle_distance, triangle_tree
-from decomp.medial.result import Cell, RegionSkeleton, Skeleton
+from decomp.geometry import Geometry
+from decomp.medial.result import Cell
 from decomp.sites.site import Site, SiteKind
+from decomp.tetra.check_names import face_names
+from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.vectors import Array, Ints
 
 NONE = -1
@@ -19,13 +23,13 @@ class KnownCells:
     """The cells of all regions.
 
     Args:
-        skeleton: that they are of.
+        surface: boundary and skeleton that they are of.
         cells: all, region after region.
         regions: (c,) the region of each.
         of_site: (s,) the cell of the points nearest to each site, NONE for sites of the outside.
     """
 
-    skeleton: Skeleton
+    surface: MeshSurface
     cells: tuple[Cell, ...]
     regions: Ints
     of_site: Ints
@@ -35,14 +39,19 @@ class KnownCells:
         """Of all cells."""
         return [cell.name for cell in self.cells]
 
+    @property
+    def name_of_site(self) -> list[str]:
+        """The name (s,) of each site's cell, empty for sites of the outside."""
+        return [self.cells[k].name if k != NONE else "" for k in self.of_site.tolist()]
+
     def depth(self, points: Array, regions: Ints) -> Array:
         """Distance (n,) of points to the walls between cells of their regions (n,).
 
-        Exact to the skeleton's tolerance; infinite where there is one cell.
+        Exact to the surface's tolerance; infinite where there is one cell.
         """
-        mesh = self.skeleton.complex
+        mesh = self.surface.complex
         result = np.zeros(len(points))
-        for number, region in enumerate(self.skeleton.regions):
+        for number, region in enumerate(self.surface.regions):
             rows = np.flatnonzero(regions == number)
             own = [cell for cell, r in zip(self.cells, self.regions, strict=True) if r == number]
             outer = {patch for sides in region.face_sides for patch, _ in sides}
@@ -53,14 +62,31 @@ class KnownCells:
         return result
 
 
-def known_cells(skeleton: Skeleton, names: set[str]) -> KnownCells:
-    """The skeleton's cells or its face cells, whichever more of some names are of."""
+def cells_named(
+    geometry: Geometry, names: set[str], tolerance: float, tell: Callable[[str, float], None]
+) -> KnownCells:
+    """The skeleton's cells or its face cells, whichever more of some names are of.
 
-    def fit(by_face: bool) -> int:
-        return len(names & {c.name for r in skeleton.regions for c in _cells(r, by_face)})
+    Args:
+        geometry: of the model.
+        names: of cells.
+        tolerance: chord tolerance of the sheets, in model units.
+        tell: is told what is being done, and which part (0 to 1) is behind.
 
-    by_face = fit(True) > fit(False)
-    parts = [_cells(region, by_face) for region in skeleton.regions]
+    Raises:
+        GeometryError: the skeleton cannot be computed.
+    """
+    maker = SurfaceMaker(geometry, tell)
+    whole = known_cells(maker.made(tolerance, False))
+    if names <= set(whole.names) or not names & set(face_names(geometry)):
+        return whole
+    parted = known_cells(maker.made(tolerance, True))
+    return max((whole, parted), key=lambda known: len(names & set(known.names)))
+
+
+def known_cells(surface: MeshSurface) -> KnownCells:
+    """The cells of a complex."""
+    parts = [region.cells for region in surface.regions]
     cells = tuple(cell for part in parts for cell in part)
     place = {cell.name: k for k, cell in enumerate(cells)}
     of_face = {
@@ -70,20 +96,16 @@ def known_cells(skeleton: Skeleton, names: set[str]) -> KnownCells:
         for face in cell.faces
     }
     of_site = [
-        NONE if site.region < 0 else of_face[site.region, _owner(skeleton, site)]
-        for site in skeleton.sites
+        NONE if site.region < 0 else of_face[site.region, _owner(surface, site)]
+        for site in surface.sites
     ]
     regions = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    return KnownCells(skeleton, cells, regions, np.array(of_site, dtype=np.int64))
+    return KnownCells(surface, cells, regions, np.array(of_site, dtype=np.int64))
 
 
-def _cells(region: RegionSkeleton, by_face: bool) -> tuple[Cell, ...]:
-    return region.face_cells if by_face else region.cells
-
-
-def _owner(skeleton: Skeleton, site: Site) -> str:
+def _owner(surface: MeshSurface, site: Site) -> str:
     """The face whose cell has the points nearest to a site (see `decomp.cells.partition`)."""
-    boundary = skeleton.regions[site.region].boundary
+    boundary = surface.regions[site.region].boundary
     if site.kind is SiteKind.FACE:
         face = site.index
     elif site.kind is SiteKind.EDGE:
@@ -92,7 +114,7 @@ def _owner(skeleton: Skeleton, site: Site) -> str:
         vertex = boundary.vertices[site.index]
         reentrant = {
             other.index
-            for other in skeleton.sites
+            for other in surface.sites
             if other.region == site.region and other.kind is SiteKind.EDGE
         }
         edges = [edge for edge in vertex.edges if edge in reentrant]

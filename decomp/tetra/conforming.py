@@ -21,13 +21,11 @@ from decomp.tetra.flipping import flipped
 from decomp.tetra.layout import Layout
 from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
-from decomp.tetra.strayed import strayed
+from decomp.tetra.shortening import LONGEST, Lengths
 from decomp.tetra.tagging import Tagged, Tagger
 from decomp.tetra.targets import Finder, renewed
 from decomp.vectors import Array, Bools, Ints
 
-EXACT = 1e-12
-"""Nodes nearer to a surface than this part of the model's diagonal are on it."""
 ROUNDS = 8
 FLIPS = 3
 """How often tetrahedra with small angles are exchanged and nodes smoothed again."""
@@ -44,14 +42,12 @@ class Conformed:
         tets: (m, 4).
         part: (m,) of each.
         tagged: its triangles on patches.
-        left: nodes that are not on all that they belong to; ascending.
     """
 
     points: Array
     tets: Ints
     part: Ints
     tagged: Tagged
-    left: Ints
 
 
 def conformed(
@@ -62,7 +58,7 @@ def conformed(
     finder: Finder,
     plan: Layout,
     elements: Elements,
-    diagonal: float,
+    asked: Lengths,
 ) -> Conformed:
     """Tag and move.
 
@@ -73,7 +69,7 @@ def conformed(
         tagger, finder: of patches and of places.
         plan: the complex.
         elements: of it.
-        diagonal: of the model.
+        asked: lengths; smoothing leaves no edge longer than these allow, but those that are.
     """
     for last in range(ROUNDS - 1, -1, -1):
         faces = faces_of(tets)
@@ -91,24 +87,22 @@ def conformed(
         if mended is None:
             break
         points, tets, part = mended
-    projector.smooth()
+    projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
     for _ in range(FLIPS):
         better = flipped(projector.points, tets, part, tagged.triangles)
         if better is None:
             break
         tets, part = better
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
-        left = projector.settle()
-        projector.smooth()
+        projector.settle()
+        projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
     for turn in range(SLIPS + 1):
         targets, slipped = renewed(targets, finder.targets(projector.points, tagged))
         if not len(slipped) or turn == SLIPS:
             break
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
-        left = projector.settle()
-    off = strayed(projector.points, tagged, plan, elements, EXACT * diagonal)
-    left = np.unique(np.concatenate([left, slipped, off]))
-    return Conformed(projector.points, tets, part, tagged, left)
+        projector.settle()
+    return Conformed(projector.points, tets, part, tagged)
 
 
 def _mended(

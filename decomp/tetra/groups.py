@@ -11,11 +11,11 @@ from decomp.tetra.layout import Layout
 from decomp.tetra.mesh import Group, GroupKind
 from decomp.tetra.surface import MeshSurface
 from decomp.tetra.tagging import Tagged
-from decomp.vectors import Ints
+from decomp.vectors import Array, Ints
 
 
-def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
-    """A group for each cell, in their order."""
+def cell_groups(geometry: Geometry, cells: CellMap, sizes: Array) -> list[Group]:
+    """A group for each cell, in their order; the largest lengths (r,) are asked in the regions."""
     found = []
     for number, cell in enumerate(cells.cells):
         region = geometry.model.regions[int(cells.region[number])]
@@ -28,13 +28,14 @@ def cell_groups(geometry: Geometry, cells: CellMap) -> list[Group]:
                 cell.faces,
                 cell.volume,
                 region.options.get("maxh"),
+                length=float(sizes[cells.region[number]]),
             )
         )
     return found
 
 
-def region_groups(geometry: Geometry) -> list[Group]:
-    """A group for each region, in their order."""
+def region_groups(geometry: Geometry, sizes: Array) -> list[Group]:
+    """A group for each region, in their order; the largest lengths (r,) are asked in them."""
     return [
         Group(
             GroupKind.REGION,
@@ -44,6 +45,7 @@ def region_groups(geometry: Geometry) -> list[Group]:
             (),
             geometry.regions[number].volume,
             region.options.get("maxh"),
+            length=float(sizes[number]),
         )
         for number, region in enumerate(geometry.model.regions)
     ]
@@ -56,6 +58,7 @@ def surface_groups(
     plan: Layout,
     tagged: Tagged,
     sheets: bool,
+    sizes: Array,
 ) -> tuple[list[Group], Ints]:
     """Groups of boundary faces, interfaces and sheets, and each triangle's tag, 0 for none.
 
@@ -65,6 +68,7 @@ def surface_groups(
         geometry, surface, cells, plan: of the model.
         tagged: the triangles.
         sheets: whether sheets get groups.
+        sizes: (r,) the largest length asked in each region.
     """
     names = [region.name for region in geometry.model.regions]
     groups: list[Group] = []
@@ -80,6 +84,9 @@ def surface_groups(
             full = [f"{names[r]}/{face.name}" for (r, _), face in zip(sides, faces, strict=True)]
             numbers = [face.options.get("bc") for face in faces]
             bc = next((number for number in numbers if number is not None), None)
+            every = [face.options.get("maxh") for face in faces]
+            maxh = min((length for length in every if length is not None), default=None)
+            least = min(float(sizes[r]) for r, _ in sides)
             kind = GroupKind.FACE if len(sides) == 1 else GroupKind.INTERFACE
             of_face[sides] = len(groups) + 1
             groups.append(
@@ -88,7 +95,9 @@ def surface_groups(
                     len(groups) + 1,
                     "|".join(full),
                     tuple(names[r] for r, _ in sides),
+                    maxh=maxh,
                     bc=bc,
+                    length=least if maxh is None else min(least, maxh),
                 )
             )
         tag_of_patch[patch] = of_face[sides]

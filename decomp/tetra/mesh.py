@@ -38,8 +38,11 @@ class Group:
         faces: names of the boundary faces of a cell; empty for other kinds.
         volume: exact-complex volume of a cell or exact volume of a region, in model units cubed;
             None for triangles.
-        maxh: largest edge length that the input file asks for in this region, None for none.
+        maxh: largest edge length that the input file asks for in this region, or on this face or
+            interface; None for none.
         bc: boundary condition number of the input file (Netgen's `-bc`), None for none.
+        length: largest edge length asked for there, of `maxh`, the user's size and the default;
+            None if unknown, and for sheets.
     """
 
     kind: GroupKind
@@ -50,6 +53,7 @@ class Group:
     volume: float | None = None
     maxh: float | None = None
     bc: int | None = None
+    length: float | None = None
 
     @property
     def dimension(self) -> int:
@@ -75,6 +79,7 @@ class TetMesh:
             exact geometry without spoiling a tetrahedron; ascending.
         point_data: (n,) values at nodes by name: the fields asked for, see `decomp.tetra.fields`.
         cell_data: (m,) values of tetrahedra by name.
+        lengths: (n,) edge length wanted at each node; None if unknown.
         source: the file that the model was read from, if any; no output may replace it.
     """
 
@@ -88,6 +93,7 @@ class TetMesh:
     unprojected: Ints
     point_data: Mapping[str, Array] = field(default_factory=dict)
     cell_data: Mapping[str, Ints] = field(default_factory=dict)
+    lengths: Array | None = None
     source: Path | None = None
 
     @property

@@ -9,12 +9,14 @@ from decomp.complex.refine_elements import Elements
 from decomp.geometry import Geometry
 from decomp.tetra.cells import CellMap, cell_map
 from decomp.tetra.child import Settings, SizeField
+from decomp.tetra.chords import chords
 from decomp.tetra.expected import expected_tets, least_tets
 from decomp.tetra.features import fitting_epsilon, usual_epsilon
 from decomp.tetra.field import sizing
 from decomp.tetra.layout import Layout, layout
 from decomp.tetra.memory import check_memory
-from decomp.tetra.sizes import Wanted, region_sizes, wishes
+from decomp.tetra.shortening import Lengths, lengths_asked
+from decomp.tetra.sizes import Wanted, Wishes, region_sizes, wishes
 from decomp.tetra.soup import soup
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from decomp.vectors import Array, Ints
@@ -42,6 +44,10 @@ class Prepared:
         settings: for it.
         field: sizes for it.
         expected: how many tetrahedra there will be, about.
+        sizes: (r,) the largest length in each region.
+        asked: the largest lengths in cells and on patches.
+        wish: all lengths.
+        chords: as long as edges on curved faces may be for epsilon's sake.
     """
 
     geometry: Geometry
@@ -53,6 +59,10 @@ class Prepared:
     settings: Settings
     field: SizeField | None
     expected: float
+    sizes: Array
+    asked: Lengths
+    wish: Wishes
+    chords: Wishes
 
 
 def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) -> Prepared:
@@ -96,6 +106,10 @@ def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) 
         settings,
         field,
         expected,
+        sizes,
+        lengths_asked(geometry, known, plan, sizes),
+        wish,
+        chords(surface, sizes, CHORD * epsilon),
     )
 
 

@@ -90,8 +90,12 @@ class Projector:
         self._move_one_by_one(failed, FLOORS[-1])
         return np.sort(self._targets.nodes[~complete])
 
-    def smooth(self) -> None:
-        """Better angles, at the worst and all over; nodes on lines and corners stay."""
+    def smooth(self, longest: Array) -> None:
+        """Better angles, at the worst and all over; nodes on lines and corners stay.
+
+        Args:
+            longest: (e,) what edges, in the order of `edges_of`, are not drawn out beyond.
+        """
         for _ in range(ROUNDS):
             bad = np.flatnonzero(self._quality < WORST)
             if not len(bad) or not self._better(np.unique(self._tets[bad])):
@@ -106,7 +110,7 @@ class Projector:
             on = self._dimension[rows], self._element[rows]
             return placed(self._elements, self._corners, *on, wanted)
 
-        self._points = smoothed(self._points, self._tets, free, held, place)
+        self._points = smoothed(self._points, self._tets, free, held, place, longest)
         # nodes on surfaces stay: a try may lead beyond the face that they are on
         self._points = lifted(self._points, self._tets, free)
 

@@ -6,8 +6,6 @@ straight.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from decomp.complex.refine_elements import Elements
@@ -24,26 +22,9 @@ LEAST = 0.1
 """They stay above this part of the straight tetrahedron's."""
 
 
-@dataclass(frozen=True, eq=False)
-class Quadratic:
-    """A mesh of ten-node tetrahedra.
-
-    Args:
-        points: (n + e, 3) the nodes at corners, then those on edges.
-        tets: (m, 10).
-        triangles: (k, 6) the tagged triangles.
-        left: nodes on edges that stayed off the surface they belong to; ascending.
-    """
-
-    points: Array
-    tets: Ints
-    triangles: Ints
-    left: Ints
-
-
 def quadratic(
     points: Array, tets: Ints, tagged: Tagged, finder: Finder, elements: Elements, corners: Array
-) -> Quadratic:
+) -> tuple[Array, Ints, Ints]:
     """Put nodes on all edges.
 
     Args:
@@ -53,6 +34,9 @@ def quadratic(
         finder: tells what edges belong to.
         elements: of the complex.
         corners: (p, 3) the complex's points.
+
+    Returns:
+        points (n + e, 3), those at corners first; tetrahedra (m, 10); the tagged triangles (k, 6).
     """
     edges, of_tet = edges_of(tets, EDGES)
     straight = points[edges].mean(axis=1)
@@ -80,9 +64,8 @@ def quadratic(
         touched = np.zeros(len(edges), dtype=np.bool_)
         touched[back] = True
         checked = np.flatnonzero(touched[of_tet].any(axis=1))
-    left = rows[~curved[rows]]
     six = np.concatenate([tagged.triangles, of_triangle + len(points)], axis=1)
-    return Quadratic(every, whole, six, left + len(points))
+    return every, whole, six
 
 
 def _edges_at(edges: Ints, triangles: Ints, count: int) -> Ints:

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from decomp.csg.model import Ignored
+from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.tetra.quality import dihedral_angles, inverted, radius_ratios, volumes
 from decomp.vectors import Ints
+
+SAME = 0.02
+"""A mean length that was wanted is told if it is below the one asked for by more than this part."""
 
 
 @dataclass(frozen=True)
@@ -26,6 +30,7 @@ class Volume:
         volume: of the tetrahedra.
         exact: the region's, or that of the cell inside the skeleton's complex; None if unknown.
         maxh: what the input asks for.
+        edges: of a region; None for cells.
     """
 
     name: str
@@ -35,6 +40,7 @@ class Volume:
     volume: float
     exact: float | None
     maxh: float | None
+    edges: EdgeLengths | None = None
 
     @property
     def error(self) -> float | None:
@@ -44,13 +50,22 @@ class Volume:
 
 @dataclass(frozen=True)
 class Surface:
-    """A group of triangles."""
+    """A group of triangles.
+
+    Args:
+        name, kind, regions, bc: the group's.
+        triangles: how many.
+        maxh: what the input asks for on this face, or on one of an interface's faces.
+        edges: of a face or interface with a `maxh`; None for others.
+    """
 
     name: str
     kind: str
     regions: tuple[str, ...]
     triangles: int
     bc: int | None
+    maxh: float | None = None
+    edges: EdgeLengths | None = None
 
 
 @dataclass(frozen=True)
@@ -84,6 +99,7 @@ class Report:
         order: of the elements.
         nodes, tets, triangles: how many.
         regions, cells, surfaces: in the order of their groups.
+        edges: of all tetrahedra.
         quality: of the tetrahedra.
         unprojected: nodes that are not on their exact surfaces.
         bridging: tetrahedra with all four corners on the boundary of a region.
@@ -99,6 +115,7 @@ class Report:
     regions: tuple[Volume, ...]
     cells: tuple[Volume, ...]
     surfaces: tuple[Surface, ...]
+    edges: EdgeLengths
     quality: Quality
     unprojected: int
     bridging: int
@@ -126,17 +143,7 @@ def report(
     for group in solids:
         own = mesh.tet_tags == group.tag
         cells.append(_volume(group, int(own.sum()), float(contents[own].sum())))
-    surfaces = tuple(
-        Surface(
-            group.name,
-            group.kind.value,
-            group.regions,
-            int((mesh.triangle_tags == group.tag).sum()),
-            group.bc,
-        )
-        for group in mesh.groups
-        if group.dimension == 2
-    )
+    surfaces = tuple(_surface(mesh, group) for group in mesh.groups if group.dimension == 2)
     whole = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.REGION]
     parts = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.CELL]
     return Report(
@@ -145,9 +152,10 @@ def report(
         len(mesh.points),
         len(mesh.tets),
         len(mesh.triangles),
-        (*whole, *_joined(parts, exact or {})),
+        tuple(_with_edges(mesh, each) for each in (*whole, *_joined(parts, exact or {}))),
         tuple(parts),
         surfaces,
+        edge_lengths(mesh.points, mesh.tets, wanted=mesh.lengths),
         _quality(mesh),
         len(mesh.unprojected),
         _bridging(mesh),
@@ -167,6 +175,24 @@ def _bridging(mesh: TetMesh) -> int:
 def _volume(group: Group, tets: int, content: float) -> Volume:
     region = group.regions[0]
     return Volume(group.name, region, group.faces, tets, content, group.volume, group.maxh)
+
+
+def _surface(mesh: TetMesh, group: Group) -> Surface:
+    own = mesh.triangles[mesh.triangle_tags == group.tag]
+    edges = None
+    if group.maxh is not None:
+        edges = edge_lengths(mesh.points, own, group.length, mesh.lengths)
+    return Surface(
+        group.name, group.kind.value, group.regions, len(own), group.bc, group.maxh, edges
+    )
+
+
+def _with_edges(mesh: TetMesh, region: Volume) -> Volume:
+    """A region with its edges."""
+    groups = [g for g in mesh.groups if g.dimension == 3 and region.name in g.regions]
+    own = mesh.tets[np.isin(mesh.tet_tags, [group.tag for group in groups])]
+    edges = edge_lengths(mesh.points, own, groups[0].length, mesh.lengths)
+    return replace(region, edges=edges)
 
 
 def _joined(cells: Sequence[Volume], exact: Mapping[str, float]) -> list[Volume]:
@@ -229,6 +255,8 @@ def as_text(found: Report) -> list[str]:
             f"  region {region.name}: {region.tets} tetrahedra{inside}, volume "
             f"{region.volume:.9g}{_error(region)}"
         )
+        if region.edges is not None:
+            lines.append(f"    {edges_text(region.edges)}")
     if found.cells:
         spread = _spread([cell.tets for cell in found.cells])
         errors = [abs(cell.error) for cell in found.cells if cell.error is not None]
@@ -241,6 +269,13 @@ def as_text(found: Report) -> list[str]:
     kinds = [surface.kind for surface in found.surfaces]
     counted = [(kinds.count(kind.value), kind.value) for kind in GroupKind if kind.value in kinds]
     lines.append(f"  surfaces: {', '.join(_plural(n, kind) for n, kind in counted)}")
+    lines += [
+        f"    {surface.name}: {edges_text(surface.edges)}"
+        for surface in found.surfaces
+        if surface.edges is not None
+    ]
+    if len(found.regions) > 1:
+        lines.append(f"  all {edges_text(found.edges)}")
     quality = found.quality
     lines += [
         f"  dihedral angles {quality.least_dihedral:.1f} to {quality.greatest_dihedral:.1f} "
@@ -259,6 +294,17 @@ def as_text(found: Report) -> list[str]:
     if found.stages:
         lines.append("  " + _times(found.stages))
     return lines
+
+
+def edges_text(edges: EdgeLengths) -> str:
+    """Lengths of edges in words."""
+    text = f"edges: mean {edges.mean:.4g}, longest {edges.longest:.4g}"
+    if edges.asked is None:
+        return text
+    less = edges.wanted is not None and edges.wanted < (1 - SAME) * edges.asked
+    return f"{text} (asked {edges.asked:.4g}" + (
+        f", {edges.wanted:.4g} in the mean with curvature and thin places)" if less else ")"
+    )
 
 
 def _times(stages: Sequence[tuple[str, float]]) -> str:

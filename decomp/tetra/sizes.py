@@ -47,7 +47,7 @@ class Wanted:
     """What the user asks for.
 
     Args:
-        size: largest edge length, in model units.
+        size: length of edges, in model units, where nothing asks for shorter ones.
         layers: elements across thin parts.
         per_circle: edges around a full circle.
 
@@ -95,7 +95,7 @@ class Wishes:
 
 
 def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
-    """The largest edge length in each region: the user's, the file's `maxh`, or a default.
+    """The length asked for in each region: the user's, the file's `maxh`, or a default.
 
     Raises:
         InputError: the model fits into the length asked for.
@@ -151,9 +151,12 @@ def _curved(
     mesh = surface.complex
     found = []
     change = total = 0.0
-    for face, sides in zip(region.boundary.faces, region.face_sides, strict=True):
+    for index, sides in enumerate(region.face_sides):
+        face = region.boundary.faces[index]
         triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
-        some, which = samples(mesh.points, triangles, largest)
+        limit = face.options.get("maxh")
+        spacing = largest if limit is None else min(largest, limit)
+        some, which = samples(mesh.points, triangles, spacing)
         corners = mesh.points[triangles]
         area = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])) / 2
         low, high = curvatures(region.boundary.carriers[face.carrier], some)
@@ -165,7 +168,6 @@ def _curved(
         share = (area / np.bincount(which, minlength=len(area)))[which]
         lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
         change, total = change + lost, total + abs(lost)
-        limit = face.options.get("maxh")
         if limit is not None:
             own = np.minimum(own, limit)
         found.append((some, own, bend))

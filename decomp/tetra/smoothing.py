@@ -27,7 +27,13 @@ Place = Callable[[Ints, Array], tuple[Array, Bools]]
 
 
 def smoothed(
-    points: Array, tets: Ints, free: Bools, held: Bools, place: Place, seed: int = 0
+    points: Array,
+    tets: Ints,
+    free: Bools,
+    held: Bools,
+    place: Place,
+    longest: Array,
+    seed: int = 0,
 ) -> Array:
     """Better places for nodes.
 
@@ -39,6 +45,7 @@ def smoothed(
             their neighbours that are not free.
         place: puts such nodes (their numbers, and wanted places) onto their surfaces, and tells
             which succeeded.
+        longest: (e,) of edges in the order of `edges_of`: none gets longer by moving a node.
         seed: of the choice of nodes.
     """
     points = np.array(points)
@@ -46,6 +53,7 @@ def smoothed(
     ends = np.concatenate([edges, edges[:, ::-1]])
     counts = free[ends[:, 0]] | ~free[ends[:, 1]]
     near = ends[counts]
+    most = np.concatenate([longest, longest])
     movable = free | held
     random = np.random.default_rng(seed)
     quality = least_dihedral(points, tets)
@@ -71,6 +79,9 @@ def smoothed(
         np.minimum.at(low, node, new)
         np.minimum.at(before, node, old)
         kept = chosen & (gain > 0) & (low >= np.minimum(before, SOUND))
+        own = np.flatnonzero(kept[ends[:, 0]])
+        far = norm(moved[ends[own, 0]] - moved[ends[own, 1]]) > most[own]
+        kept[ends[own[far], 0]] = False
         points[kept] = wanted[kept]
         done = kept[node]
         quality[rows[done]] = new[done]

@@ -10,7 +10,9 @@ import numpy as np
 from decomp.tetra.child import MeshingError, Settings, TimeLimit, tetrahedralized
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import Conformed, conformed
+from decomp.tetra.faces import faces_of
 from decomp.tetra.preparation import Prepared, Progress
+from decomp.tetra.shortening import LONGEST, shortened, tightened
 from decomp.tetra.splitting import freed
 from decomp.tetra.strayed import strayed
 from decomp.tetra.tagging import Tagger
@@ -20,6 +22,9 @@ from decomp.vectors import Array, Ints
 FAR, AGAIN = 3.0, 0.9
 """Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
 triangle. It does so by chance, and is tried once more, with this part of epsilon."""
+
+CUTS = 3
+"""How often edges that are too long are cut: nodes put in place can draw them out again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +78,17 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     tell("projecting", 0.8)
     tagger = Tagger(geometry, given.surface, known, plan, epsilon)
     finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
-    fit = conformed(points, tets, part, tagger, finder, plan, given.elements, geometry.diagonal)
+    tagged = tagger.tagged(points, part, faces_of(tets))
+    aimed = given.asked
+    for _ in range(CUTS):
+        points, tets, part = shortened(points, tets, part, tagged, aimed)
+        fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
+        points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
+        longest = given.asked.edges(tets, part, tagged).excess(points).max()
+        tighter = tightened(points, tets, part, tagged, given.asked, aimed)
+        if longest <= LONGEST and tighter is None:
+            break
+        aimed = tighter or aimed
     far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * epsilon)
     return Filled(fit, finder, far)
 

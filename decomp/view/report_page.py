@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import astuple
 from html import escape
 
 import numpy as np
@@ -34,6 +35,13 @@ def encoded(mesh: TetMesh, found: Report) -> bytes:
     ]
     cells = [(e.name, e.tets, f"{e.volume:.6g}", _percent(e.error)) for e in found.cells]
     surfaces = [(each.name, each.triangles) for each in found.surfaces]
+    parted = [("all", found.edges), *((each.name, each.edges) for each in found.regions)]
+    parted += [(each.name, each.edges) for each in found.surfaces]
+    lengths = [
+        (name, edges.number, *(_length(value) for value in astuple(edges)[1:]))
+        for name, edges in parted
+        if edges is not None
+    ]
     stages = [(what, f"{seconds:.2f}") for what, seconds in found.stages]
     parts = [
         f"<h1>{escape(found.model)}</h1>",
@@ -47,6 +55,11 @@ def encoded(mesh: TetMesh, found: Report) -> bytes:
         histogram(ratio, 0, 1, "radius ratio 3 r / R, 1 for a regular tetrahedron"),
         "<h2>Regions</h2>",
         _table(("region", "tetrahedra", "volume", "off the exact one"), regions),
+        "<h2>Lengths of edges</h2>",
+        _table(
+            ("in or on", "edges", "mean", "longest", "asked", "wanted in the mean"),
+            lengths,
+        ),
         "<h2>Cells</h2>",
         _table(("cell", "tetrahedra", "volume", "off the skeleton's"), cells),
         "<h2>Surfaces</h2>",
@@ -92,6 +105,10 @@ def _ignored(found: Report) -> list[str]:
     """What was left out of the model's file, if anything was."""
     rows = [(each.line, each.statement) for each in found.ignored]
     return ["<h2>Ignored statements</h2>", _table(("line", "statement"), rows)] if rows else []
+
+
+def _length(value: float | None) -> str:
+    return "" if value is None else f"{value:.4g}"
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

@@ -86,8 +86,8 @@ def test_save_to_a_wrong_place(tmp_path: Path) -> None:
         save(ball, tmp_path / "folder.json")
     with pytest.raises(FileError, match="cannot be written: its directory does not exist"):
         save(ball, tmp_path / "missing" / "x.json")
-    with pytest.raises(InputError, match="no UTF-8 form"):
-        save(Sphere((0, 0, 0), 1).named("a", bcname="\ud800"), tmp_path / "x.json")
+    with pytest.raises(InputError, match="bcname of solid 'a' must be a text"):
+        Sphere((0, 0, 0), 1).named("a", bcname="\ud800")
     with pytest.raises(InputError, match="no form in UTF-8"):
         model(Sphere((0, 0, 0), 1), "\ud800")
     for name in ("x", "x.geo", "-"):

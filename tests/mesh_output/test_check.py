@@ -118,7 +118,7 @@ FAULTS: dict[str, tuple[Callable[[ReadMesh], ReadMesh], str]] = {
     ),
     "off": (
         lambda m: moved(m, 0, [0.1, 0.1, 0.1]),
-        "1 boundary nodes are off their surface, by up to 0.1 at (0.1, 0.1, 0.1)",
+        "1 nodes are off their exact surfaces, by up to 0.1 at (0.1, 0.1, 0.1)",
     ),
     "outside": (
         lambda m: moved(m, 0, [-0.1, -0.1, -0.1]),
@@ -157,8 +157,42 @@ def test_little_is_forgiven() -> None:
     assert len(check(CUBE, mesh).shortcomings) == 1
     assert check(CUBE, mesh, unprojected=1).shortcomings == ()
     shifted = moved(read(), 8, [0.006, 0, 0])
-    assert check(CUBE, shifted).shortcomings == ()
-    assert len(check(CUBE, shifted, epsilon=1e-3).shortcomings) == 1
+    # it is on the sheets between four of the cells no longer
+    assert check(CUBE, shifted).off_surface == pytest.approx(0.006 / np.sqrt(2), rel=1e-6)
+    assert check(CUBE, shifted, unprojected=1).shortcomings == ()
+    assert len(check(CUBE, shifted, unprojected=1, epsilon=1e-3).shortcomings) == 1
+
+
+BALL = {"ball": decomp.Sphere((0, 0, 0), 1, name="ball")}
+
+
+@pytest.fixture(scope="module")
+def coarse() -> TetMesh:
+    return decomp.mesh(BALL, size=0.7)
+
+
+def test_what_straight_edges_leave_out_is_told(coarse: TetMesh) -> None:
+    found = check(BALL, coarse)
+    assert found.shortcomings == ()
+    assert found.volume_error > 1e-2
+    assert found.chord_error == pytest.approx(found.volume_error, rel=0.02)
+    assert found.unexplained_error < 5e-4
+
+
+@pytest.mark.parametrize("part", [0.99, 1.01])
+def test_what_they_do_not_explain_fails(coarse: TetMesh, part: float) -> None:
+    found = check(BALL, replace(coarse, points=part * coarse.points), unprojected=10**6)
+    assert found.unexplained_error == pytest.approx(abs(1 - part**3), rel=0.05)
+    (line,) = found.shortcomings
+    assert line.startswith("region ball has volume ") and "of straight edges" in line
+
+
+def test_a_hole_fails(coarse: TetMesh) -> None:
+    inner = np.flatnonzero(np.linalg.norm(coarse.points[coarse.tets].mean(axis=1), axis=1) < 0.3)
+    kept = np.setdiff1d(np.arange(len(coarse.tets)), inner)
+    holed = replace(coarse, tets=coarse.tets[kept], tet_tags=coarse.tet_tags[kept])
+    lines = check(BALL, holed).shortcomings
+    assert any(line.startswith("region ball has volume ") for line in lines)
 
 
 def test_middle_nodes_are_shared() -> None:
@@ -263,7 +297,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert read_msh(bad).names[2, 3] == "cube/cube.ymin"
     assert main(["check", str(model), str(bad)]) == 1
     text = capsys.readouterr()
-    assert "  FAILS: 1 boundary nodes are off their surface, by up to 1 at " in text.out
+    assert "  FAILS: 1 nodes are off their exact surfaces, by up to 1 at " in text.out
     assert text.err == f"decomp: error: {bad} falls short of {model} in 1 way\n"
     assert main(["check", str(model), str(tmp_path / "none.msh")]) == 2
     assert main(["check", str(model), str(bad), "--quiet"]) == 1

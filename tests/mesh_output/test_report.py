@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from math import degrees, pi
 
 import numpy as np
@@ -44,20 +45,52 @@ def test_as_text() -> None:
     text = as_text(report(bar(), {"left": 1.0, "right": 1.0}, [("TetWild", 2.5)]))
     assert text[0] == ("model bar: 768 tetrahedra of order 1, 225 nodes, 384 tagged triangles")
     assert "region left: 384 tetrahedra in 2 cells, volume 1 (exact 1, off by " in text[1]
-    assert "  tetrahedra per cell: 192 to 384, median 192" in text[3]
-    assert text[4] == "  surfaces: 4 faces, 1 interface, 1 sheet"
+    # of 4^3 boxes: 300 of their edges, 240 diagonals of their sides, 64 of their own
+    mean = (300 + 240 * 2**0.5 + 64 * 3**0.5) / 4 / (300 + 240 + 64)
+    assert text[2] == f"    edges: mean {mean:.4g}, longest {3**0.5 / 4:.4g}"
+    assert "  tetrahedra per cell: 192 to 384, median 192" in text[5]
+    assert text[6] == "  surfaces: 4 faces, 1 interface, 1 sheet"
+    assert text[7].startswith("  all edges: mean 0.31")
     assert "  cell left/cell-1: left.back, a, b, c" in text
     assert text[-1] == "  2.5 s: TetWild 2.5"
 
 
 def test_ignored_statements_are_told_of() -> None:
     found = report(bar(), ignored=[Ignored("point (1,1,1)", 4)])
-    assert as_text(found)[-1] == "  ignored line 4: point (1,1,1)"
+    assert as_text(found)[-1] == "  ignored: line 4: point (1,1,1)"
     assert list(as_json(found)["ignored"]) == [{"statement": "point (1,1,1)", "line": 4}]
     page = encoded(bar(), found).decode()
     assert "<h2>Ignored statements</h2>" in page
     assert "<td>4</td><td>point (1,1,1)</td>" in page
     assert "Ignored" not in encoded(bar(), report(bar())).decode()
+
+
+def test_lengths_of_edges() -> None:
+    mesh = cube()
+    # from the middle to eight corners, twelve edges, a diagonal on each of six sides
+    lengths = [0.75**0.5] * 8 + [1.0] * 12 + [2**0.5] * 6
+    given = [
+        replace(g, length=1.25) if g.dimension == 3 else replace(g, maxh=0.5, length=0.5)
+        for g in mesh.groups
+    ]
+    mesh = replace(mesh, groups=tuple(given), lengths=np.full(len(mesh.points), 0.8))
+    found = report(mesh)
+    edges = found.regions[0].edges
+    assert edges is not None
+    assert edges.number == 26
+    assert edges.mean == pytest.approx(np.mean(lengths))
+    assert (edges.longest, edges.asked) == (pytest.approx(2**0.5), 1.25)
+    assert edges.wanted == pytest.approx(0.8)
+    side = found.surfaces[0].edges
+    assert side is not None and side.number == 5
+    assert side.mean == pytest.approx((4 + 2**0.5) / 5)
+    assert (side.asked, side.wanted) == (0.5, pytest.approx(0.5))
+    values = as_json(found)
+    assert values["surfaces"][0]["maxh"] == 0.5
+    assert values["regions"][0]["edges"]["longest"] == pytest.approx(2**0.5)
+    text = "\n".join(as_text(found))
+    assert "(asked 1.25, 0.8 in the mean with curvature and thin places)" in text
+    assert "longest 1.414 (asked 0.5)" in text
 
 
 def test_curved_volumes() -> None:

@@ -14,6 +14,8 @@ from decomp.tetra.child import Settings, Tetrahedra, tetrahedralized
 from decomp.tetra.faces import faces_of, least_dihedral
 from decomp.tetra.mesh import GroupKind, TetMesh
 from decomp.tetra.quality import inverted, volumes
+from decomp.tetra.report import report
+from decomp.tetra.shortening import LONGEST
 from decomp.tetra.splitting import held
 from decomp.vectors import Array, Ints
 from tests.solids import SOLIDS
@@ -72,6 +74,54 @@ def test_every_face_between_regions_is_tagged_once(name: str) -> None:
         [kinds[tag] is GroupKind.FACE for tag in mesh.triangle_tags.tolist()], dtype=bool
     )
     assert all(tuple(t) in turned for t in mesh.triangles[boundary].tolist())
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_edges_are_as_long_as_asked(name: str) -> None:
+    found = report(meshed(name))
+    for part in (*found.regions, *found.surfaces):
+        if part.edges is not None:
+            assert part.edges.asked is not None and part.edges.wanted is not None
+            assert part.edges.longest <= LONGEST * part.edges.asked
+            assert part.edges.mean <= 1.05 * part.edges.asked
+            assert part.edges.mean >= 0.75 * part.edges.wanted
+
+
+@pytest.mark.parametrize("name", ["block", "bracket", "cylinder", "sphere"])
+def test_the_size_is_the_length_of_edges(name: str) -> None:
+    exact = decomp.Geometry(SOLIDS[name].make())
+    size = exact.diagonal / 12
+    found = report(decomp.mesh(exact, size=size)).regions[0].edges
+    assert found is not None and found.asked == size
+    assert 0.75 * size <= found.mean <= 1.05 * size
+    assert found.longest <= 1.5 * size
+
+
+def test_sizes_of_regions_and_faces_are_lengths_of_edges() -> None:
+    top = decomp.HalfSpace((0, 0, 1), (0, 0, 1), name="top").named("cut", maxh=0.2)
+    below = decomp.Block((0, 0, 0), (3, 3, 2), name="below") & top
+    beside = decomp.Block((3, 0, 0), (2, 3, 1), name="beside")
+    model = decomp.model([decomp.Region("a", below), decomp.Region("b", beside, {"maxh": 0.4})])
+    mesh = decomp.mesh(model, size=0.8)
+    found = report(mesh)
+    assert [region.edges and region.edges.asked for region in found.regions] == [0.8, 0.4]
+    assert [(s.name, s.maxh) for s in found.surfaces if s.maxh] == [("a/cut.top", 0.2)]
+    assert mesh.group("a/cut.top", 2).maxh == 0.2
+    assert mesh.group("b/beside.xmax", 2).maxh is None
+    (own,) = (surface.edges for surface in found.surfaces if surface.edges is not None)
+    assert own.asked == 0.2
+    assert 0.15 <= own.mean <= 0.21 and own.longest <= 0.3
+    for region in found.regions:
+        assert region.edges is not None and region.edges.asked is not None
+        assert region.edges.longest <= 1.5 * region.edges.asked
+        assert region.edges.mean <= 1.05 * region.edges.asked
+
+
+@pytest.mark.parametrize("value", [0, -1.0, "much"])
+def test_a_faces_size_that_is_none_is_refused(value: object) -> None:
+    solid = decomp.Block((0, 0, 0), (1, 1, 1)).named("part", maxh=value)
+    with pytest.raises(InputError, match="maxh"):
+        decomp.mesh(solid)
 
 
 @pytest.mark.parametrize("name", EVERY)

@@ -15,7 +15,7 @@ from decomp.complex.refine_elements import Elements
 from decomp.medial.region_curves import region_curves
 from decomp.tetra.collapsing import collapsed
 from decomp.tetra.content import contents
-from decomp.tetra.faces import faces_of, least_dihedral, volumes
+from decomp.tetra.faces import EDGES, edges_of, faces_of, least_dihedral, volumes
 from decomp.tetra.lifting import lifted
 from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
@@ -76,6 +76,10 @@ def test_elements_held_by_the_boundary_are_split(n: int) -> None:
     assert (faces.tets[:, 1] < 0).sum() == 12 * n**2
 
 
+def unlimited(tets: Ints) -> Array:
+    return np.full(len(edges_of(tets, EDGES)[0]), np.inf)
+
+
 def on_plane(height: float) -> Elements:
     plane = CarrierSurface(
         Plane(vector((0, 0, height), "point"), direction((0, 0, 1), "normal")), 1
@@ -97,7 +101,7 @@ def test_nodes_are_moved_together() -> None:
     points[top, 2] += 0.02 * np.random.default_rng(0).normal(size=len(top))
     moved = Projector(points, tets, targets_of(top), on_plane(1.0), np.empty((0, 3)))
     assert len(moved.settle()) == 0
-    moved.smooth()
+    moved.smooth(unlimited(tets))
     assert (moved.points[top, 2] == 1).all()
     assert (volumes(moved.points, tets) > 0).all()
 
@@ -108,7 +112,7 @@ def test_a_node_that_would_invert_stays_and_is_counted() -> None:
     plane = on_plane(-0.5)
     moved = Projector(points, tets, targets_of(lone), plane, np.empty((0, 3)))
     assert moved.settle().tolist() == lone.tolist()
-    moved.smooth()
+    moved.smooth(unlimited(tets))
     assert (volumes(moved.points, tets) > 0).all()
     assert (moved.points[lone] == points[lone]).all()
 
@@ -184,13 +188,35 @@ def test_smoothing_makes_angles_better_and_keeps_what_is_held() -> None:
         assert top[nodes].all()
         return wanted * [1, 1, 0] + [0, 0, 1], np.ones(len(nodes), dtype=np.bool_)
 
-    better = smoothed(points, tets, inside, top, onto_top)
+    better = smoothed(points, tets, inside, top, onto_top, unlimited(tets))
     before, after = least_dihedral(points, tets), least_dihedral(better, tets)
     assert after.mean() > before.mean() + 1
     assert after.min() >= min(before.min(), 20)
     assert (better[top, 2] == 1).all()
     still = ~(inside | top)
     assert (better[still] == points[still]).all()
+
+
+def test_smoothing_draws_no_edge_out() -> None:
+    points, tets = grid(4)
+    inside = np.asarray(((points > 0) & (points < 1)).all(axis=1))
+    random = np.random.default_rng(0)
+    points[inside] += 0.06 * random.uniform(-1, 1, size=(int(inside.sum()), 3))
+    ends, _ = edges_of(tets, EDGES)
+
+    def length(at: Array) -> Array:
+        return np.asarray(np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1))
+
+    def nowhere(nodes: Ints, wanted: Array) -> tuple[Array, np.ndarray]:
+        return wanted, np.ones(len(nodes), dtype=np.bool_)
+
+    most = 1.05 * length(points).max() * np.ones(len(ends))
+    most[: len(ends) // 2] = 0.0
+    none = np.zeros(len(points), dtype=np.bool_)
+    better = smoothed(points, tets, inside, none, nowhere, most)
+    grown = length(better) > length(points) + 1e-12
+    assert grown.any()
+    assert (length(better)[grown] <= most[grown]).all()
 
 
 def test_distance_from_a_polyline() -> None:

@@ -1,0 +1,87 @@
+"""Whether regions have their volumes, but for what straight edges of such a length leave out.
+
+A flat triangle with its corners on a curved surface cuts off what is between. Edges of length l on
+a surface of curvature k rise l^2 k / 8 at their middles, and a triangle of area A with rises h
+leaves out A (h1 + h2 + h3) / 3 (the integral of 4 h_ij b_i b_j in barycentric coordinates b).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.geometry import Geometry
+from decomp.tetra.check_names import Names
+from decomp.tetra.layout import TRIANGLE_EDGES
+from decomp.tetra.msh_reader import ReadMesh
+from decomp.tetra.quality import volumes
+from decomp.vectors import Array, Ints, cross, dot, norm
+
+
+@dataclass(frozen=True)
+class VolumeError:
+    """Of a region, relative to its exact volume, with signs.
+
+    Args:
+        whole: of the tetrahedra.
+        chords: what straight edges leave out (below 0) or put in between.
+    """
+
+    whole: float
+    chords: float
+
+    @property
+    def unexplained(self) -> float:
+        """What is left."""
+        return self.whole - self.chords
+
+
+def volume_errors(
+    mesh: ReadMesh, regions: Ints, names: Names, geometry: Geometry
+) -> list[VolumeError]:
+    """The errors of all regions.
+
+    Args:
+        mesh: with its triangles.
+        regions: (m,) the region of each tetrahedron.
+        names: of its groups.
+        geometry: of the model.
+    """
+    contents = volumes(mesh.points, mesh.tets)
+    out = left_out(mesh, names, geometry)
+    found = []
+    for number, region in enumerate(geometry.regions):
+        content = float(contents[regions == number].sum())
+        found.append(VolumeError(content / region.volume - 1, -float(out[number]) / region.volume))
+    return found
+
+
+def left_out(mesh: ReadMesh, names: Names, geometry: Geometry) -> Array:
+    """The volume (r,) of each region beyond its flat triangles, below 0 where they reach out of it.
+
+    What corners are off their surfaces does not count. Triangles of 6 nodes are not flat.
+    """
+    found = np.zeros(len(geometry.regions))
+    if mesh.triangles.shape[1] > 3:
+        return found
+    for tag, owners in names.faces.items():
+        corners = mesh.points[mesh.triangles[mesh.triangle_tags == tag]]
+        normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = norm(normal) / 2
+        ends = corners[:, TRIANGLE_EDGES]
+        for number, face in owners:
+            boundary = geometry.regions[number]
+            carrier = boundary.carriers[boundary.faces[face].carrier]
+            rise = np.zeros(len(corners))
+            for edge in range(3):
+                middle = ends[:, edge].mean(axis=1)
+                foot = carrier.foot(middle)
+                outward = boundary.faces[face].outward * carrier.normal(foot)
+                way = foot - middle
+                for end in range(2):
+                    at = ends[:, edge, end]
+                    way = way - (carrier.foot(at) - at) / 2
+                rise += dot(way, outward)
+            found[number] += float((area * rise).sum()) / 3
+    return found

@@ -1,0 +1,32 @@
+"""How long edges on curved faces can be: TetWild is given triangles close to the exact ones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from decomp.tetra.layout import samples
+from decomp.tetra.sizes import Wishes, curvatures
+from decomp.tetra.surface import MeshSurface
+from decomp.vectors import Array
+
+
+def chords(surface: MeshSurface, sizes: Array, rise: float) -> Wishes:
+    """The lengths of chords that rise so much, at points of all curved faces; at most the sizes.
+
+    An edge of length l is l^2 k / 8 off a surface of curvature k.
+
+    Args:
+        surface: of the model.
+        sizes: (r,) the largest length in each region.
+        rise: in model units.
+    """
+    mesh = surface.complex
+    points, lengths = [], []
+    for region, size in zip(surface.regions, sizes.tolist(), strict=True):
+        for face, sides in zip(region.boundary.faces, region.face_sides, strict=True):
+            triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
+            some, _ = samples(mesh.points, triangles, size)
+            bend = np.abs(curvatures(region.boundary.carriers[face.carrier], some)).max(axis=0)
+            points.append(some)
+            lengths.append(np.minimum(np.sqrt(8 * rise / np.maximum(bend, 1e-300)), size))
+    return Wishes(np.concatenate(points), np.concatenate(lengths))
