@@ -24,7 +24,9 @@ from decomp.tracing import loci
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.loci import locus_gap
-from decomp.vectors import Array, Bools, Ints, dot, norm, place
+from decomp.tracing.raising import touching_radii
+from decomp.tracing.supports import support_table
+from decomp.vectors import Array, Bools, Ints, norm, place
 
 SAMPLES = 96
 NEAREST_END = 1e-5
@@ -34,9 +36,6 @@ BESIDE_END = 11
 NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 HALVINGS = 60
-STEPS = 40
-LEAST_SLOPE = 1e-12
-"""Changes of the distance against the radius count as no less."""
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near
 measured by the ball too: close to a convex vertex balls are small."""
@@ -324,30 +323,24 @@ def solve_radius(
 ) -> Array:
     """Radii (k,) of the balls over parameters (k,) that touch site `far` near feet (k, 3).
 
-    Newton's method on d_far(q + r n) = r, whose derivative by r is g . n - 1.
-
     Raises:
-        GeometryError: it does not converge; says where.
+        GeometryError: there is none; says where.
     """
-    q, n = curve.feet(s), curve.directions(s)
-    which: Ints = np.full(len(s), far, dtype=np.int64)
-    r = np.array(guess, dtype=np.float64)
-    size = incidence.boundary.diagonal
-    near = np.array(feet)
-    step = np.zeros(len(r))
-    for _ in range(STEPS):
-        field = site_fields(incidence.boundary, incidence.sites, which, q + r[:, None] * n, near)
-        near = field.foot
-        # where both feet are one the distance does not change against the radius
-        step = (field.distance - r) / np.maximum(1 - dot(field.gradient, n), LEAST_SLOPE)
-        step = np.clip(step, -0.5 * np.abs(r) - 1e-12 * size, 0.5 * np.abs(r) + 1e-12 * size)
-        r = r + step
-        if np.abs(step).max(initial=0.0) <= 4e-16 * size:
-            break
-    if not np.abs(step).max(initial=0.0) <= 1e-12 * size:
-        bad = int(np.argmax(np.abs(step)))
-        raise GeometryError(f"the maximal ball at the boundary point {place(q[bad])} is not found")
+    r = try_radius(incidence, curve, far, s, feet, guess)
+    if np.isnan(r).any():
+        bad = curve.feet(s[np.isnan(r)])[0]
+        raise GeometryError(f"the maximal ball at the boundary point {place(bad)} is not found")
     return r
+
+
+def try_radius(
+    incidence: Incidence, curve: NormalCurve, far: int, s: Array, feet: Array, guess: Array
+) -> Array:
+    """The same, nan where there is no such ball."""
+    which: Ints = np.full(len(s), far, dtype=np.int64)
+    table = support_table(incidence.boundary, incidence.sites)
+    size = incidence.boundary.diagonal
+    return touching_radii(table, size, which, curve.feet(s), curve.directions(s), guess, feet)
 
 
 def _secant(f: Callable[[float], float], a: float, b: float) -> float:

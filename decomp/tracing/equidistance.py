@@ -62,10 +62,10 @@ def equidistant(
 def placed_between(
     boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
 ) -> Equidistant:
-    """Points at equal distance from two sites each, inside the region.
+    """Points at equal distance from two sites each.
 
-    Newton's method takes the shortest way there, if it gets there; where the distances' gradients
-    are equal, or lead outside, the point over one of the feet is taken.
+    Newton's method takes the shortest way there, if it gets there; where it does not, as where the
+    distances' gradients are equal, the point over one of the feet is taken.
 
     Args:
         boundary: of the region.
@@ -76,7 +76,6 @@ def placed_between(
     """
     table, size = support_table(boundary, sites), boundary.diagonal
     found = balanced(table, size, which, points, feet)
-    found.converged[found.radius < -CONVERGED * size] = False
     lost = np.flatnonzero(~found.converged)
     if not len(lost):
         return found

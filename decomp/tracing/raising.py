@@ -7,7 +7,7 @@ place, so d(q + r n) - r falls, its root can be bracketed, and the search cannot
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
@@ -15,20 +15,11 @@ from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.supports import FACE, SupportTable, support
 from decomp.vectors import Array, Bools, Ints, norm
 
-DOUBLINGS, HALVINGS = 60, 120
-
-
-@inner
-def excess(
-    table: SupportTable, other: int, q: Array, n: Array, r: float, foot: Array, i: int, c: int
-) -> float:
-    """By how much a ball's centre is farther from another support than from q, r away along n."""
-    x, y, z = q[0] + r * n[0], q[1] + r * n[1], q[2] + r * n[2]
-    away, _, _, _, fx, fy, fz = support(
-        table, other, x, y, z, foot[i, c, 0], foot[i, c, 1], foot[i, c, 2]
-    )
-    foot[i, c, 0], foot[i, c, 1], foot[i, c, 2] = fx, fy, fz
-    return float(away - r)
+STEPS = 200
+AT_REST = 4e-16
+"""Steps below this part of the size are the last ones."""
+OUTSIDE = 1e-12
+"""A foot farther than this part of the size outside another site has no ball that touches both."""
 
 
 @inner
@@ -38,30 +29,61 @@ def grown(
     q: Array,
     n: Array,
     start: float,
-    largest: float,
+    size: float,
     feet: Array,
     i: int,
-    c: int,
 ) -> float:
-    """The radius of the ball at q along n that touches another support; -1 if there is none."""
-    if excess(table, other, q, n, 0.0, feet, i, c) < 0.0:
-        return -1.0
-    low, high = 0.0, max(start, 1e-9 * largest)
-    for _ in range(DOUBLINGS):
-        if excess(table, other, q, n, high, feet, i, c) <= 0.0:
-            break
-        low, high = high, 2.0 * high
-        if low > largest:
-            return -1.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        if middle <= low or middle >= high:
-            break
-        if excess(table, other, q, n, middle, feet, i, c) > 0.0:
-            low = middle
+    """The radius of the ball at q along n that touches another support; -1 if there is none.
+
+    Newton's method within a bracket that shrinks at every step.
+
+    Args:
+        table: of supports.
+        other: the one that is touched.
+        q, n: (3,), where the ball stands and its unit normal.
+        start: a first radius.
+        size: of the region; balls are no larger.
+        feet: (k, 3), of which row i holds a foot on the other support near by; replaced.
+        i: the row.
+    """
+    low, high = 0.0, inf
+    r = min(max(start, 1e-9 * size), size)
+    for _ in range(STEPS):
+        away, gx, gy, gz, hx, hy, hz = support(
+            table,
+            other,
+            q[0] + r * n[0],
+            q[1] + r * n[1],
+            q[2] + r * n[2],
+            feet[i, 0],
+            feet[i, 1],
+            feet[i, 2],
+        )
+        feet[i, 0], feet[i, 1], feet[i, 2] = hx, hy, hz
+        off = away - r
+        if off == 0.0:
+            return r
+        if off > 0.0:
+            low = r
+            if low >= size:
+                return -1.0
         else:
-            high = middle
-    return 0.5 * (low + high)
+            high = r
+        slope = 1.0 - (gx * n[0] + gy * n[1] + gz * n[2])
+        after = r + off / slope if slope > 0.0 else -1.0
+        if not low < after < high or after > 2.0 * r:
+            after = 2.0 * r if high == inf else 0.5 * (low + high)
+        after = min(after, size)
+        step, r = after - r, after
+        if abs(step) <= AT_REST * size or high - low <= AT_REST * size:
+            break
+    if r <= OUTSIDE * size:
+        away, _, _, _, _, _, _ = support(
+            table, other, q[0], q[1], q[2], feet[i, 0], feet[i, 1], feet[i, 2]
+        )
+        if away < -OUTSIDE * size:
+            return -1.0
+    return r
 
 
 @scalar
@@ -71,6 +93,7 @@ def raise_all(
     size: float,
     points: Array,
     feet: Array,
+    touched: Array,
     placed: Array,
     radius: Array,
     q: Array,
@@ -83,7 +106,7 @@ def raise_all(
         which: of them (k, 2); balls stand on the first and touch the second.
         size: of the region; balls are no larger.
         points: (k, 3).
-        feet: (k, 2, 3), known ones near by; replaced.
+        feet, touched: (k, 3), known ones on the first and second; replaced.
         placed, radius: filled in.
         q, n: scratch (3,).
     """
@@ -91,14 +114,14 @@ def raise_all(
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
         own = which[i, 0]
         away, gx, gy, gz, fx, fy, fz = support(
-            table, own, x, y, z, feet[i, 0, 0], feet[i, 0, 1], feet[i, 0, 2]
+            table, own, x, y, z, feet[i, 0], feet[i, 1], feet[i, 2]
         )
-        feet[i, 0, 0], feet[i, 0, 1], feet[i, 0, 2] = fx, fy, fz
+        feet[i, 0], feet[i, 1], feet[i, 2] = fx, fy, fz
         q[0], q[1], q[2], n[0], n[1], n[2] = fx, fy, fz, gx, gy, gz
         radius[i] = -1.0
         length = sqrt(gx * gx + gy * gy + gz * gz)
         if length > 0.5 and (table.kinds[own] == FACE or away > 0.0):
-            radius[i] = grown(table, which[i, 1], q, n, abs(away), size, feet, i, 1)
+            radius[i] = grown(table, which[i, 1], q, n, abs(away), size, touched, i)
         for j in range(3):
             placed[i, j] = q[j] + radius[i] * n[j]
 
@@ -125,11 +148,49 @@ def raised(
     touched = np.array(feet, dtype=np.float64)
     for order in ((0, 1), (1, 0)):
         pair = np.ascontiguousarray(which[:, order], dtype=np.int64)
-        own = np.ascontiguousarray(np.asarray(feet, dtype=np.float64)[:, order])
+        own, far_feet = (np.array(feet[:, k], dtype=np.float64) for k in order)
         placed, radius = np.empty_like(points), np.empty(len(points))
-        raise_all(table, pair, size, points, own, placed, radius, np.empty(3), np.empty(3))
+        scratch = np.empty((2, 3))
+        raise_all(table, pair, size, points, own, far_feet, placed, radius, *scratch)
         far = np.where(radius >= 0.0, norm(placed - points), np.inf)
         better = np.flatnonzero(far < gap)
         found[better], gap[better] = placed[better], far[better]
-        touched[better] = own[better][:, order]
+        touched[better, order[0]], touched[better, order[1]] = own[better], far_feet[better]
     return found, touched, np.isfinite(gap)
+
+
+@scalar
+def grow_all(
+    table: SupportTable,
+    others: Ints,
+    size: float,
+    q: Array,
+    n: Array,
+    guess: Array,
+    feet: Array,
+    radius: Array,
+) -> None:
+    """Fill in the radii (k,) of the balls at q along n (k, 3) that touch others (k,), see `grown`."""
+    for i in range(len(q)):
+        radius[i] = grown(table, others[i], q[i], n[i], guess[i], size, feet, i)
+
+
+def touching_radii(
+    table: SupportTable, size: float, others: Ints, q: Array, n: Array, guess: Array, feet: Array
+) -> Array:
+    """Radii (k,) of the balls that stand on points and touch a support each; nan if there is none.
+
+    Args:
+        table: of supports.
+        size: of the region.
+        others: the supports (k,).
+        q, n: (k, 3), points and unit normals into the region.
+        guess: (k,), first radii.
+        feet: (k, 3), on the supports near where they are touched.
+    """
+    radius = np.empty(len(q))
+    points, ways = (np.ascontiguousarray(a, dtype=np.float64) for a in (q, n))
+    start = np.ascontiguousarray(guess, dtype=np.float64)
+    which = np.ascontiguousarray(others, dtype=np.int64)
+    grow_all(table, which, size, points, ways, start, np.array(feet, np.float64), radius)
+    return np.where(radius < 0.0, np.nan, radius)
