@@ -35,6 +35,9 @@ BESIDE_END = 11
 """So many samples are close to each end."""
 NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
+SHORT, TOUCHES = 1e-2, 1e-10
+"""A stretch of the curve shorter than the first part of it whose contact is as near as another, to the
+second part of the size, is a point in which the two are equally near."""
 HALVINGS = 60
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near
@@ -90,11 +93,52 @@ class TrimScanner:
                 _continue_to_ends(found)
         cuts = self._changes(curves, samples)
         result = []
-        for c, known, cut in zip(curves, samples, cuts, strict=True):
+        for c, known, every in zip(curves, samples, cuts, strict=True):
+            cut = self._without_touches(c, known, every)
             bounds = [self._change(c, low, high) for low, high in cut]
             whole = self._between(c, known, cut, bounds)
             result.append([part for piece in whole for part in self._turning(piece, known)])
         return result
+
+    def _without_touches(
+        self, curve: NormalCurve, samples: list[_Sample], cuts: list[tuple[_Sample, _Sample]]
+    ) -> list[tuple[_Sample, _Sample]]:
+        """Changes of the far contact, without those to one that is as near in one point only.
+
+        There its distance is least; what rounding and tolerances make of that point is a short
+        stretch between two changes, there and back. Where a closed curve starts in such a stretch
+        its first and last samples are given the contact beside it.
+        """
+        cuts = list(cuts)
+        k = 0 if curve.closed else 1
+        while k < len(cuts) and len(cuts) > 1:
+            (before, one), (other, after) = cuts[k - 1], cuts[k]
+            if before.far == after.far and self._only_touches(curve, before, one, other):
+                if k == 0:
+                    samples[0] = replace(samples[0], far=after.far, foot=after.foot)
+                    samples[-1] = replace(samples[-1], far=before.far, foot=before.foot)
+                del cuts[k], cuts[k - 1]
+                k = max(k - 1, 0 if curve.closed else 1)
+            else:
+                k += 1
+        return cuts
+
+    def _only_touches(
+        self, curve: NormalCurve, before: _Sample, one: _Sample, other: _Sample
+    ) -> bool:
+        """Whether the contact of a stretch from `one` to `other` is nowhere nearer than another."""
+        period = curve.end - curve.start
+        length = (other.s - one.s) % period if curve.closed else other.s - one.s
+        own = tuple(sorted(curve.sites))
+        if length > SHORT * period or own in (before.far, one.far):
+            return False
+        s = one.s + length * np.linspace(0.0, 1.0, 5)
+        q, n = curve.feet(s), curve.directions(s)
+        incidence = self._incidence
+        balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
+        feet = np.repeat(before.foot[None], len(s), axis=0)
+        radius = try_radius(incidence, curve, before.far[0], s, feet, balls.radius)
+        return bool(np.abs(radius - balls.radius).max() <= TOUCHES * self._size)
 
     def _turning(self, piece: TrimPiece, samples: list[_Sample]) -> list[TrimPiece]:
         """The parts of a piece between the places where it turns back at a reflexive locus."""
