@@ -84,7 +84,8 @@ class SeamTracer:
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
             if why in (FULL, ENDED, CLOSED, STUCK):
-                runs.append(stretch.run(count))
+                # the last row of a closed seam lies past its first
+                runs.append(stretch.run(count - 1 if why == CLOSED else count))
                 if why == FULL:
                     here = last
                     continue
