@@ -13,6 +13,7 @@ from decomp.complex.model import Line, LineKind, Patch
 from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.medial.curve_elements import RayCurve
+from decomp.medial.leaving_together import matched
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
@@ -95,7 +96,9 @@ class RegionAssembler:
             GeometryError: a sheet or trim surface cannot be made; says where.
         """
         nodes = self._place_nodes()
-        lines = [self._line(piece, nodes) for piece in self._curves.pieces]
+        pieces = self._curves.pieces
+        samples = matched(pieces, [self._sampled(piece) for piece in pieces])
+        lines = [self._line(*each, nodes) for each in zip(pieces, samples, strict=True)]
         points = self._points()
         sheets = self._sheets(points, lines, nodes)
         sheets += self._closed_sheets({sheet.sites for sheet in sheets})
@@ -135,12 +138,16 @@ class RegionAssembler:
                 result[number] = int(near[number]) if known else self._add(point)
         return result
 
-    def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
+    def _sampled(self, piece: CurvePiece) -> Array:
+        """Samples (n, 3) of a curve, its ends included."""
         loop = piece.ends is None or piece.ends[0] == piece.ends[1]
         # rulings of trim surfaces have no points inside
         chords = 1 if isinstance(piece.element, RayCurve) else self._chords
         least = max(3 if loop else 1, chords, self._least_chords(piece))
-        found = sampled(piece.element, piece.points, self._tolerance, least)
+        return sampled(piece.element, piece.points, self._tolerance, least)
+
+    def _line(self, piece: CurvePiece, found: Array, nodes: Sequence[int]) -> Ints:
+        """The vertices of a curve's samples."""
         inner = [self._add(p) for p in found[1:-1]]
         if piece.ends is None:
             first = last = self._add(found[0])
