@@ -49,6 +49,8 @@ LOOKS = 3
 """At so many places of a step it is seen whether feet have left the boundary."""
 LEAST_LOOK, LEAST_WAY = 1e-4, 1e-4
 """Steps, as parts of the size, and ways of feet, as parts of the radius, below which it is not."""
+LATE = 3e-6
+"""An intruder that is as near for longer than this part of the size has joined before."""
 PAST = 1e-9
 """A foot so far beyond its edge's end, as a part of the size, has left it."""
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
@@ -360,7 +362,8 @@ def follow(
                 break
         if change == HOLDS and not rough and not narrowing and length > LEAST_LOOK * size:
             rough = leaves_between(table, probe, which, track, last, trial)
-        if change == HOLDS and not rough and (not narrowing or kind == JOINED):
+        late = kind == INTRUDED and high - length > LATE * size
+        if change == HOLDS and not rough and (not narrowing or kind == JOINED or late):
             first = trial * count
             if another(probe, x, y, z, radius, track.feet, first, count):
                 change, contact = JOINED, -1
