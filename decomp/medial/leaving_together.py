@@ -1,7 +1,8 @@
 """Curves that leave a node together are sampled together.
 
-Where two curves have a tangent and more in common at their node, chords between samples at different
-distances from it cross. So each gets samples at the other's distances, as far as they stay together.
+Where two curves have a tangent and more in common at their node, chords between samples at
+different distances from it cross. So each gets samples at the other's distances, as far as they
+stay together.
 """
 
 from __future__ import annotations

@@ -36,8 +36,8 @@ BESIDE_END = 11
 NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
 SHORT, TOUCHES = 1e-2, 1e-10
-"""A stretch of the curve shorter than the first part of it whose contact is as near as another, to the
-second part of the size, is a point in which the two are equally near."""
+"""A stretch of the curve shorter than the first part of it whose contact is as near as another, to
+the second part of the size, is a point in which the two are equally near."""
 HALVINGS = 60
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near

@@ -1,8 +1,8 @@
-"""Points on a sheet over their feet: a sheet is a graph over its footprint (design: 3.4), compiled.
+"""Points on a sheet over their feet, compiled: a sheet is a graph over its footprint (design: 3.4).
 
-From a point's foot q on one of the two sites the ball that touches there grows along the direction n
-into the region until it touches the other site: d(q + r n) = r. A distance changes no faster than the
-place, so d(q + r n) - r falls, its root can be bracketed, and the search cannot miss it.
+From a point's foot q on one of the two sites the ball that touches there grows along the direction
+n into the region until it touches the other site: d(q + r n) = r. A distance changes no faster than
+the place, so d(q + r n) - r falls, its root can be bracketed, and the search cannot miss it.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ def grow_all(
     feet: Array,
     radius: Array,
 ) -> None:
-    """Fill in the radii (k,) of the balls at q along n (k, 3) that touch others (k,), see `grown`."""
+    """Fill in radii (k,) of balls at q along n (k, 3) that touch others (k,), see `grown`."""
     for i in range(len(q)):
         radius[i] = grown(table, others[i], q[i], n[i], guess[i], size, feet, i)
 

@@ -17,7 +17,7 @@ from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.following import Track, advance
 from decomp.tracing.supports import SupportTable, support, tangent_at
-from decomp.vectors import Array, Ints, norm
+from decomp.vectors import Array, Ints
 
 ROUNDS = 80
 ON_WALL = 1e-16
@@ -86,15 +86,7 @@ class Walls:
 
         Where a straight edge goes on smoothly into an arc, its line stays close to the arc.
         """
-        edge = self._boundary.edges[wall.edge - self._table.first_edge]
-        if edge.closed:
-            return 0.0
-        past = float(edge.curve.parameter(spot)) - edge.start
-        if edge.curve.closed:
-            past %= edge.curve.period
-        if 0.0 <= past <= edge.end - edge.start:
-            return 0.0
-        return float(norm(edge.samples[[0, -1]] - spot).min())
+        return self._boundary.edges[wall.edge - self._table.first_edge].beyond(spot)
 
 
 @inner
