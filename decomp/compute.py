@@ -13,13 +13,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 from decomp.arguments import called
 from decomp.certificate.certificate import VOLUME
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.drafts import SAMPLES, SHARE, drafted, traced
 from decomp.errors import GeometryError, InputError
-from decomp.fineness import fine_enough, finer, volume_error
+from decomp.fineness import fine_enough, finer, volume_errors
 from decomp.geometry import Geometry
 from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.result import Skeleton
@@ -106,15 +108,15 @@ class _Attempt:
             except GeometryError:
                 if refused or not left:
                     raise
-                refused, fineness = True, finer(fineness, COARSE)
+                refused, fineness = True, finer(fineness, np.full(len(fineness), COARSE))
                 continue
-            error = volume_error(geometry, draft.surface, whole.complex)
-            if error > VOLUME and left:
-                fineness = finer(fineness, error / VOLUME)
+            errors = volume_errors(geometry, draft.surface, whole.complex)
+            if errors.max() > VOLUME and left:
+                fineness = finer(fineness, errors / VOLUME)
                 continue
             self._tell("measuring", 0.9)
             result = whole.result()
-            if not result.excess:
+            if not result.excess.any():
                 break
             fineness = finer(fineness, result.excess)
         return result.skeleton, result.failures

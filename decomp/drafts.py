@@ -46,6 +46,16 @@ class Draft:
     trims: tuple[tuple[TrimSurface, ...], ...]
     part_lines: tuple[tuple[int, ...], ...]
 
+    def patch_limits(self, of_region: Array) -> Array:
+        """What each patch is allowed (p,): what its region is (r,), the least of both at faces."""
+        found = np.full(len(self.complex.patches), np.inf)
+        for region, limit in enumerate(of_region):
+            own = [k for k, each in enumerate(self.surface.patches) if each.outward_of(region)]
+            own += self.sheet_patches[region]
+            own += [trim.patch for trim in self.trims[region] if trim.patch >= 0]
+            found[own] = np.minimum(found[own], limit)
+        return found
+
 
 def traced(
     geometry: Geometry, samples: int, tell: Callable[[str, float], None]
@@ -65,21 +75,25 @@ def traced(
 
 
 def drafted(
-    geometry: Geometry, curves: Sequence[RegionCurves], tolerance: float, with_trims: bool = True
+    geometry: Geometry,
+    curves: Sequence[RegionCurves],
+    tolerances: Array | float,
+    with_trims: bool = True,
 ) -> Draft:
     """Triangulate the boundary and all sheets; where curves cross they are sampled more finely.
 
     Args:
         geometry: of the model.
         curves: of its regions.
-        tolerance: that the complex is to be refined to, in model units.
+        tolerances: that the complex is to be refined to, in model units; (r,) of the regions, or
+            one for all.
         with_trims: whether trim surfaces are to be in the complex.
 
     Raises:
         MissingCurveError: there are more curves than are known.
         CrossingError, GeometryError: a sheet cannot be triangulated.
     """
-    along, chords = SHARE * tolerance, 1
+    along, chords = SHARE * np.broadcast_to(tolerances, len(curves)), 1
     nodes = [point for region in curves for point in region.turning_feet()]
     for _ in range(LEVELS - 1):
         try:
@@ -93,16 +107,18 @@ def drafted(
 def _drafted(
     geometry: Geometry,
     curves: Sequence[RegionCurves],
-    sampling: tuple[float, int, bool],
+    sampling: tuple[Array, int, bool],
     nodes: Sequence[Array],
     with_trims: bool,
 ) -> Draft:
-    surface = boundary_mesh(geometry, sampling[0], nodes=nodes)
+    along, chords, finest = sampling
+    surface = boundary_mesh(geometry, float(along.max()), nodes=nodes)
     points = surface.points
     parts = []
     for number, region in enumerate(curves):
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
-        maker = RegionAssembler(geometry.index, region, vertices, points, *sampling)
+        own = float(along[number]), chords, finest
+        maker = RegionAssembler(geometry.index, region, vertices, points, *own)
         parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])
     return _joined(surface, parts, with_trims)

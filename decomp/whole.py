@@ -29,13 +29,13 @@ class Result:
     Args:
         skeleton: None if it fails its certificate.
         failures: why.
-        excess: how many times what is allowed the largest error of a volume or chord is; 0 where
-            none is too large, or more than they fails.
+        excess: (r,) how many times what is allowed the largest error of a volume or chord is, of
+            each region; 0 where none is too large, or more than they fails.
     """
 
     skeleton: Skeleton | None
     failures: list[str]
-    excess: float
+    excess: Array
 
 
 class Whole:
@@ -45,13 +45,15 @@ class Whole:
         self,
         geometry: Geometry,
         relative: float,
-        fineness: float,
+        fineness: Array,
         curves: Sequence[RegionCurves],
         draft: Draft,
     ) -> None:
         self._geometry, self._relative = geometry, relative
         self._curves, self._draft = curves, draft
-        self.complex, self._number = refined(draft.complex, fineness * geometry.diagonal)
+        self.complex, self._number = refined(
+            draft.complex, draft.patch_limits(fineness * geometry.diagonal)
+        )
 
     def result(self) -> Result:
         """The finished skeleton, or what its certificate lacks."""
@@ -79,13 +81,16 @@ class Whole:
         return Result(
             None if failures else made,
             failures,
-            self._excess(regions) if short and short <= {"volume_error", "chord_error"} else 0.0,
+            self._excess(regions)
+            if short and short <= {"volume_error", "chord_error"}
+            else np.zeros(len(regions)),
         )
 
-    def _excess(self, regions: Sequence[RegionSkeleton]) -> float:
+    def _excess(self, regions: Sequence[RegionSkeleton]) -> Array:
         found = [region.certificate for region in regions]
-        volume = max(one.volume_error for one in found) / VOLUME
-        return max(volume, *(one.chord_error / self._relative for one in found))
+        return np.array(
+            [max(one.volume_error / VOLUME, one.chord_error / self._relative) for one in found]
+        )
 
     def _radius(self) -> Array:
         points = self.complex.points

@@ -63,6 +63,20 @@ class Edge:
         """Whether the edge is a loop without a vertex."""
         return self.vertices is None
 
+    def beyond(self, point: Array) -> float:
+        """How far a point (3,) of the untrimmed curve is from the edge; 0 between its ends."""
+        past = float(self.curve.parameter(point)) - self.start
+        if self.curve.closed:
+            past %= self.curve.period
+        if self.closed or 0.0 <= past <= self.end - self.start:
+            return 0.0
+        return float(np.linalg.norm(self.samples[[0, -1]] - point, axis=1).min())
+
+    def holds(self, point: Array, slack: float) -> bool:
+        """Whether a point (3,) is on the edge, or off it by no more than `slack`."""
+        on_curve = self.curve.point(self.curve.wrapped(self.curve.parameter(point)))
+        return float(np.linalg.norm(on_curve - point)) <= slack and self.beyond(point) <= slack
+
 
 @dataclass(frozen=True, eq=False)
 class Vertex:

@@ -100,11 +100,11 @@ def _greatest(heights: Array) -> Array:
 
 
 def edge_errors(
-    elements: Elements, numbers: Ints, ends: Array, limit: float
+    elements: Elements, numbers: Ints, ends: Array, limit: float | Array
 ) -> tuple[Array, Array]:
     """Chord errors (k,) of edges (k, 2, 3), and their midpoints (k, 3) placed.
 
-    An edge whose error at its midpoint exceeds `limit` is not measured elsewhere.
+    An edge whose error at its midpoint exceeds its `limit` is not measured elsewhere.
     """
     middle = ends.mean(axis=1)
     placed = elements.place(numbers, middle)

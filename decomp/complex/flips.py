@@ -43,9 +43,9 @@ def flip(mesh: Mesh) -> int:
     return total
 
 
-def excess(mesh: Mesh, error: Array) -> Array:
-    """By how much errors exceed the limit, in units of it."""
-    return np.asarray(np.maximum(error / mesh.limit - 1.0, 0.0))
+def excess(error: Array) -> Array:
+    """By how much errors exceed what is allowed, in units of that."""
+    return np.asarray(np.maximum(error - 1.0, 0.0))
 
 
 def leaning(upright: Array) -> Array:
@@ -92,8 +92,8 @@ def _round(mesh: Mesh) -> int:
     # what is, and what would be
     t1, t2 = h1 // 3, h2 // 3
     lean = leaning(mesh.upright[t1]) + leaning(mesh.upright[t2])
-    over = excess(mesh, edges.error[able]) + excess(mesh, mesh.error[t1])
-    over += excess(mesh, mesh.error[t2]) + twins(mesh)[able]
+    over = excess(edges.error[able]) + excess(mesh.error[t1])
+    over += excess(mesh.error[t2]) + twins(mesh)[able]
     new1, new2 = np.stack([a, d, c], axis=1), np.stack([d, b, c], axis=1)
     old_angle = np.minimum(*(least_angles(mesh.points[mesh.triangles[t]]) for t in (t1, t2)))
     new_angle = np.minimum(*(least_angles(mesh.points[new]) for new in (new1, new2)))
@@ -105,19 +105,24 @@ def _round(mesh: Mesh) -> int:
     k = np.flatnonzero(better)
     element = mesh.surface[t1[k]]
     ends = mesh.points[np.stack([c[k], d[k]], axis=1)]
-    error, middle = edge_errors(mesh.elements, element, ends, mesh.limit)
-    some = _promising(mesh, error, lean[k], over[k])
+    allowed = mesh.allowed[t1[k]]
+    error, middle = edge_errors(mesh.elements, element, ends, allowed)
+    error = error / allowed
+    some = _promising(error, lean[k], over[k])
     k, error, middle, element = k[some], error[some], middle[some], element[some]
+    allowed = allowed[some]
     centres = [mesh.points[new[k]].mean(axis=1) for new in (new1, new2)]
     gap = mesh.elements.gap(np.tile(element, 2), np.concatenate(centres)).reshape(2, -1)
-    some = _promising(mesh, np.stack([error, *gap]), lean[k], over[k])
+    some = _promising(np.stack([error, *(gap / allowed)]), lean[k], over[k])
     k, error, middle, element = k[some], error[some], middle[some], element[some]
+    allowed = allowed[some]
     if len(k) == 0:
         return 0
     error1, upright1 = triangle_errors(mesh.elements, element, mesh.points[new1[k]])
     error2, upright2 = triangle_errors(mesh.elements, element, mesh.points[new2[k]])
+    error1, error2 = error1 / allowed, error2 / allowed
     lean_gain = lean[k] - leaning(upright1) - leaning(upright2)
-    over_gain = over[k] - sum(excess(mesh, e) for e in (error, error1, error2))
+    over_gain = over[k] - sum(excess(e) for e in (error, error1, error2))
     angle_gain = new_angle[k] - old_angle[k]
     fold_gain = sum(_folded(mesh, mesh.triangles[t[k]], mesh.upright[t[k]]) for t in (t1, t2))
     fold_gain = fold_gain - _folded(mesh, new1[k], upright1) - _folded(mesh, new2[k], upright2)
@@ -164,9 +169,9 @@ def next_half(half: Ints) -> Ints:
     return np.asarray(np.where(half % 3 == 2, half - 2, half + 1))
 
 
-def _promising(mesh: Mesh, errors: Array, lean: Array, over: Array) -> Bools:
+def _promising(errors: Array, lean: Array, over: Array) -> Bools:
     """Whether a flip can be good for all that is known of its errors (j, k)."""
-    new = excess(mesh, np.atleast_2d(errors)).sum(axis=0)
+    new = excess(np.atleast_2d(errors)).sum(axis=0)
     return np.asarray((lean > 0) | (new < over) | (new == 0))
 
 

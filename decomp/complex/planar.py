@@ -38,6 +38,10 @@ GUARDS = 12
 """Points per period of the rows that close a strip on either side."""
 
 
+class MergedError(GeometryError):
+    """Points of a plane domain coincide."""
+
+
 class SparseError(GeometryError):
     """A periodic domain has too few points to be triangulated; more of them help.
 
@@ -230,6 +234,8 @@ def _delaunay(points: Array, segments: Ints) -> tuple[Ints, Ints]:
             made.insert_edges(np.ascontiguousarray(segments, dtype=np.uint32))
         made.erase_super_triangle()
     except RuntimeError as failure:
+        if len(np.unique(points, axis=0)) < len(points):
+            raise MergedError("points of a plane domain coincide") from failure
         raise GeometryError(f"a plane domain: {str(failure).splitlines()[0]}") from failure
     triangles = made.triangles_array()["vertices"].astype(np.int64)
     fixed = np.array([(edge.v1, edge.v2) for edge in made.fixed_edges], dtype=np.int64)

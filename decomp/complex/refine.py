@@ -21,7 +21,7 @@ from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
 from decomp.complex.refine_split import split_inside, split_leaning, split_lines, split_twins
 from decomp.errors import GeometryError
-from decomp.vectors import Ints, place, positive
+from decomp.vectors import Array, Ints, place, positive
 
 Progress: TypeAlias = Callable[[int], None]
 
@@ -34,12 +34,13 @@ FOLDED: Final = -0.5
 """A triangle whose normal has no more than this inner product with its surface's is turned over."""
 
 
-def refine(given: Complex, tolerance: float, progress: Progress | None = None) -> Complex:
+def refine(given: Complex, tolerance: float | Array, progress: Progress | None = None) -> Complex:
     """A conforming complex whose chord error is at most `tolerance`, with few triangles.
 
     Args:
         given: conforming, with exact vertices; it may be coarse.
-        tolerance: largest distance of triangles and segments from their surfaces and curves.
+        tolerance: largest distance of triangles and segments from their surfaces and curves, in
+            model units; one for all patches, or (p,) one for each.
         progress: told the number of triangles after each batch of changes.
 
     Raises:
@@ -51,14 +52,16 @@ def refine(given: Complex, tolerance: float, progress: Progress | None = None) -
 
 
 def refined(
-    given: Complex, tolerance: float, progress: Progress | None = None
+    given: Complex, tolerance: float | Array, progress: Progress | None = None
 ) -> tuple[Complex, Ints]:
     """As `refine`, with the new number of each given point.
 
     It is -1 for a point inside a patch that was removed; the others keep their order. Points on
     lines, and points in no triangle, are never removed.
     """
-    mesh = Mesh(given, positive(tolerance, "tolerance"))
+    for each in np.unique(tolerance):
+        positive(each, "tolerance")
+    mesh = Mesh(given, np.broadcast_to(np.asarray(tolerance, np.float64), len(given.patches)))
     _check(mesh)
     _split(mesh, progress)
     collapse(mesh)

@@ -110,7 +110,7 @@ def _round(mesh: Mesh, able: Bools, tried: Ints, order: Ints, starts: Ints) -> i
     rank = ranks(moves.height[pick], pick)
     pick = pick[independent(len(pick), items, things, rank)]
     worst, error, upright = _judge(mesh, moves, pick)
-    good = worst <= mesh.limit
+    good = worst <= 1.0
     tried[moves.v[pick[~good]]] += 1
     pick = pick[good]
     if len(pick) == 0:
@@ -158,7 +158,7 @@ def _moves(mesh: Mesh, able: Bools, order: Ints, starts: Ints) -> Moves:
     np.minimum.at(height, move[seen], volume[seen] * size[seen] / area[seen])
     folded = np.zeros(len(v), dtype=bool)
     folded[move[area <= 0]] = True
-    height[folded | (height > mesh.limit)] = np.inf
+    height[folded | (height > mesh.allowed[half // 3])] = np.inf
     return Moves(v, u, move, out // 3, w, x, height)
 
 
@@ -174,14 +174,16 @@ def _judge(mesh: Mesh, moves: Moves, pick: Ints) -> tuple[Array, Array, Array]:
     k = k[_fresh_edge(mesh, moves, k)]
     element = mesh.surface[moves.old[k]]
     ends = points[np.stack([u[k], moves.w[k]], axis=1)]
-    error, _ = edge_errors(mesh.elements, element, ends, mesh.limit)
-    np.maximum.at(worst, moves.move[k], error)
-    worst[worst > mesh.limit] = np.inf
+    allowed = mesh.allowed[moves.old]
+    error, _ = edge_errors(mesh.elements, element, ends, allowed[k])
+    np.maximum.at(worst, moves.move[k], error / allowed[k])
+    worst[worst > 1.0] = np.inf
 
     upright, inside = np.full(len(u), np.nan), np.full(len(u), np.nan)
     k = np.flatnonzero(np.isfinite(worst)[moves.move])
     corners = points[np.stack([u[k], moves.w[k], moves.x[k]], axis=1)]
     inside[k], upright[k] = triangle_errors(mesh.elements, mesh.surface[moves.old[k]], corners)
+    inside[k] /= allowed[k]
     np.maximum.at(worst, moves.move[k], np.where(upright[k] < UPRIGHT, np.inf, inside[k]))
     return worst[pick], inside, upright
 

@@ -48,7 +48,8 @@ class Edges:
         halves: (h,) half-edges, grouped by edge, those of triangles first.
         starts: (n + 1,) where each edge's group begins.
         sides: (n,) how many triangles have the edge.
-        error: (n,) chord error, NaN where not measured.
+        allowed: (n,) the least of what its patches and lines allow.
+        error: (n,) chord error, as a part of what is allowed, NaN where not measured.
         middle: (n, 3) midpoint on the element, where measured.
         checked: (n,) whether an edge has been measured thoroughly.
     """
@@ -60,6 +61,7 @@ class Edges:
     halves: Ints
     starts: Ints
     sides: Ints
+    allowed: Array
     error: Array
     middle: Array
     checked: Bools
@@ -86,20 +88,28 @@ def found(sorted_keys: Ints, keys: Ints) -> tuple[Ints, Bools]:
 class Mesh:
     """Triangles and segments that are split, flipped and collapsed.
 
+    Each patch has a chord error that it is allowed, in model units; a line is allowed the least of
+    the patches that it borders. Errors are measured as parts of what is allowed.
+
+    Args:
+        given: the complex.
+        allowed: (p,) of its patches.
+
     Attributes:
         points: (n, 3) exact vertices.
         triangles: (m, 3).
         patch: (m,) the patch of each triangle.
-        error, upright: (m,) as `triangle_errors` gives them, NaN where not measured.
+        error, upright: (m,) as `triangle_errors` gives them, the errors as parts of what is
+            allowed, NaN where not measured.
         fresh: (m,) whether a triangle has changed since flips were last tried.
         checked: (m,) whether it has been measured thoroughly.
         path, path_line: (s,) vertices of all lines, one line after the other, and their lines.
         edges: of the triangles and segments as they are now.
     """
 
-    def __init__(self, given: Complex, limit: float) -> None:
+    def __init__(self, given: Complex, allowed: Array) -> None:
         self.elements = Elements(given)
-        self.limit = limit
+        self._of_patch, self._of_line = allowed, _line_limits(given, allowed)
         self.points: Array = np.array(given.points, dtype=np.float64)
         self.diagonal = float(norm(np.ptp(self.points, axis=0))) if len(self.points) else 0.0
         self.triangles: Ints = np.concatenate(
@@ -127,6 +137,11 @@ class Mesh:
     def surface(self) -> Ints:
         """The element (m,) of each triangle."""
         return self.elements.of_patch[self.patch]
+
+    @property
+    def allowed(self) -> Array:
+        """The chord error (m,) that each triangle is allowed, in model units."""
+        return self._of_patch[self.patch]
 
     def connect(self) -> None:
         """Find the edges anew; what was measured of those that stay is kept."""
@@ -160,8 +175,21 @@ class Mesh:
             checked[same] = old.checked[at[same]]
         sides = np.bincount(of_half[:inner], minlength=count)
         owner_of = (distinct >> 2 * BITS) - 1
+        allowed = np.full(count, np.inf)
+        of_segment = self._of_line[self.path_line[segment]]
+        np.minimum.at(allowed, of_half, np.concatenate([np.repeat(self.allowed, 3), of_segment]))
         return Edges(
-            distinct, owner_of, ends, of_half, halves, starts, sides, error, middle, checked
+            distinct,
+            owner_of,
+            ends,
+            of_half,
+            halves,
+            starts,
+            sides,
+            allowed,
+            error,
+            middle,
+            checked,
         )
 
     def segments(self) -> tuple[Ints, Ints]:
@@ -176,9 +204,8 @@ class Mesh:
         self.measure_edges()
         new = np.flatnonzero(np.isnan(self.error))
         corners = self.points[self.triangles[new]]
-        self.error[new], self.upright[new] = triangle_errors(
-            self.elements, self.surface[new], corners
-        )
+        error, self.upright[new] = triangle_errors(self.elements, self.surface[new], corners)
+        self.error[new] = error / self.allowed[new]
 
     def measure_edges(self) -> None:
         """Measure the edges that have not been."""
@@ -202,14 +229,24 @@ class Mesh:
         element[of_triangle] = self.surface[half[of_triangle] // 3]
         element[~of_triangle] = curves[half[~of_triangle] - inner]
         # curves come last in each edge's group, so that a segment's midpoint is on its curve
-        both = np.unique(np.stack([edges.of_half[half], element]), axis=1)
+        own = np.empty(len(half))
+        own[of_triangle] = self._of_patch[self.patch[half[of_triangle] // 3]]
+        own[~of_triangle] = self._of_line[
+            self.path_line[self.segments()[0][half[~of_triangle] - inner]]
+        ]
+        both, first = np.unique(
+            np.stack([edges.of_half[half], element]), axis=1, return_inverse=True
+        )
         which, element = both
+        allowed = np.full(len(which), np.inf)
+        np.minimum.at(allowed, first.reshape(-1), own)
         ends = self.points[edges.ends[which]]
         if thorough:
             edges.error[new], edges.checked[new] = 0.0, True
-            np.maximum.at(edges.error, which, thorough_edge_errors(self.elements, element, ends))
+            error = thorough_edge_errors(self.elements, element, ends)
+            np.maximum.at(edges.error, which, error / allowed)
             return
-        error, middle = edge_errors(self.elements, element, ends, self.limit)
+        error, middle = edge_errors(self.elements, element, ends, allowed)
         length = norm(ends[:, 1] - ends[:, 0])
         self._check_short(element, ends.mean(axis=1), error, length)
         last = np.append(which[1:] != which[:-1], True)
@@ -223,22 +260,23 @@ class Mesh:
                 f"{place(ends.mean(axis=1)[curve[apart[0]]])}; it must be divided"
             )
         edges.error[new] = 0.0
-        np.maximum.at(edges.error, which, error)
+        np.maximum.at(edges.error, which, error / allowed)
 
     def check(self) -> bool:
         """Measure what is close to the limit more thoroughly; whether any is beyond it."""
         edges = self.edges
-        self._measure_edges((edges.error > NEAR * self.limit) & ~edges.checked, thorough=True)
+        self._measure_edges((edges.error > NEAR) & ~edges.checked, thorough=True)
         sides = edges.error[edges.of_half[: 3 * len(self.triangles)]].reshape(-1, 3)
         worst = np.maximum(self.error, sides.max(axis=1))
-        near = np.flatnonzero((worst > NEAR * self.limit) & ~self.checked)
+        near = np.flatnonzero((worst > NEAR) & ~self.checked)
         corners = self.points[self.triangles[near]]
         error = thorough_errors(self.elements, self.surface[near], corners, samples=10)
+        error /= self.allowed[near]
         # between the points of the lattice the surface may be a little farther away
         error += 0.05 * np.maximum(error - sides[near].max(axis=1), 0.0)
         self.error[near] = error
         self.checked[near] = True
-        return bool((self.error > self.limit).any() or (edges.error > self.limit).any())
+        return bool((self.error > 1.0).any() or (edges.error > 1.0).any())
 
     def _check_short(self, element: Ints, points: Array, moved: Array, length: Array) -> None:
         """An element must not place a chord's midpoint farther away than the chord is long."""
@@ -317,3 +355,23 @@ class Mesh:
         ]
         made = Complex(self.points[keep], tuple(patches), tuple(lines))
         return made, number[:before]
+
+
+def _line_limits(given: Complex, allowed: Array) -> Array:
+    """What each line is allowed: the least of the patches that it borders, or the most of all."""
+    owner = np.repeat(np.arange(len(given.patches)), [3 * len(p.triangles) for p in given.patches])
+    sides = [np.empty(0, dtype=np.int64)]
+    for patch in given.patches:
+        sides.append(pair_keys(patch.triangles, np.roll(patch.triangles, -1, axis=1)).ravel())
+    keys = np.concatenate(sides)
+    order = np.argsort(keys, kind="stable")
+    most = float(allowed.max(initial=0.0)) if len(allowed) else np.inf
+    found_for = np.full(len(given.lines), most)
+    for number, line in enumerate(given.lines):
+        if len(line.vertices) < 2:
+            continue
+        first = pair_keys(line.vertices[:1], line.vertices[1:2])
+        a, b = np.searchsorted(keys[order], [first[0], first[0] + 1])
+        if b > a:
+            found_for[number] = allowed[owner[order[a:b]]].min()
+    return found_for

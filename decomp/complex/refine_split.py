@@ -19,7 +19,7 @@ def split_lines(mesh: Mesh) -> int:
         How many were split; those that remain have to wait for the next call.
     """
     edges = mesh.edges
-    bad = np.flatnonzero((edges.owner < 0) & (edges.error > mesh.limit))
+    bad = np.flatnonzero((edges.owner < 0) & (edges.error > 1.0))
     return _split_edges(mesh, bad, edges.error[bad])
 
 
@@ -29,8 +29,8 @@ def split_inside(mesh: Mesh) -> int:
     Returns:
         How many edges and triangles were split.
     """
-    bad = (mesh.error > mesh.limit) | _worst_sides(mesh)[0]
-    small = bad & (_lengths(mesh).max(axis=1) < 0.1 * mesh.limit)
+    bad = (mesh.error > 1.0) | _worst_sides(mesh)[0]
+    small = bad & (_lengths(mesh).max(axis=1) < 0.1 * mesh.allowed)
     if small.any():
         t = int(np.flatnonzero(small)[0])
         centre = mesh.points[mesh.triangles[t]].mean(axis=0)
@@ -95,7 +95,7 @@ def _worst_sides(mesh: Mesh) -> tuple[Bools, Ints]:
     edges = mesh.edges
     sides = edges.of_half[: 3 * len(mesh.triangles)].reshape(-1, 3)
     error = np.where((edges.owner < 0)[sides], 0.0, edges.error[sides])
-    return error.max(axis=1, initial=0.0) > mesh.limit, error.argmax(axis=1)
+    return error.max(axis=1, initial=0.0) > 1.0, error.argmax(axis=1)
 
 
 def _split_some(mesh: Mesh, t: Ints) -> int:
@@ -168,9 +168,10 @@ def _cuts(mesh: Mesh, edge: Ints, element: Ints) -> Array:
     ends = mesh.points[edges.ends[edge]]
     length = norm(ends[:, 1] - ends[:, 0])
     points = edges.middle[edge].copy()
-    angle = np.minimum(4 * np.arctan2(2 * edges.error[edge], length), 0.9 * np.pi)
+    allowed = edges.allowed[edge]
+    angle = np.minimum(4 * np.arctan2(2 * edges.error[edge] * allowed, length), 0.9 * np.pi)
     radius = length / (2 * np.sin(np.maximum(angle, 1e-9) / 2))
-    wanted = mesh.limit / _bulge(mesh)[edge]
+    wanted = allowed / _bulge(mesh)[edge]
     parts = np.ceil(angle / (2 * np.arccos(np.maximum(1 - wanted / radius, 0.0))) - 0.02)
     odd = np.flatnonzero((parts > 2) & (parts % 2 == 1))
     turn = ((parts[odd] // 2) / parts[odd] - 0.5) * angle[odd]
@@ -188,7 +189,7 @@ def _bulge(mesh: Mesh) -> Array:
     edges = mesh.edges
     of_half = edges.of_half[: 3 * len(mesh.triangles)]
     side = edges.error[of_half].reshape(-1, 3).max(axis=1)
-    ratio = np.clip(mesh.error / np.maximum(side, 1e-3 * mesh.limit), 1.0, 1.5)
+    ratio = np.clip(mesh.error / np.maximum(side, 1e-3), 1.0, 1.5)
     bulge = np.ones(len(edges.keys))
     np.maximum.at(bulge, of_half, np.repeat(ratio, 3))
     return bulge

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,22 +12,24 @@ from decomp.boundary.topology import Convexity
 from decomp.complex.model import Line, LineKind, Patch
 from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
+from decomp.medial.closed_sheets import ClosedSheetMaker
 from decomp.medial.curve_elements import RayCurve
+from decomp.medial.leaving_together import matched
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
 from decomp.medial.rim_curve import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
-from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheets import SheetMaker, SheetPart
 from decomp.medial.trim_maker import AT_END, BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
-from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.contacts import contacts
 from decomp.tracing.loci import axis_gap, on_locus
 from decomp.vectors import Array, Ints, norm, place
+
+Pair = tuple[int, int]
 
 ALONG_LOCI = 24
 """Chords at least along a reflexive curve to which trim surfaces lead."""
@@ -95,10 +97,14 @@ class RegionAssembler:
             GeometryError: a sheet or trim surface cannot be made; says where.
         """
         nodes = self._place_nodes()
-        lines = [self._line(piece, nodes) for piece in self._curves.pieces]
+        pieces = self._curves.pieces
+        samples = matched(pieces, [self._sampled(piece) for piece in pieces])
+        lines = [self._line(*each, nodes) for each in zip(pieces, samples, strict=True)]
         points = self._points()
-        sheets = self._sheets(points, lines, nodes)
-        sheets += self._closed_sheets({sheet.sites for sheet in sheets})
+        kinks = self._kinks(nodes)
+        sheets = self._sheets(points, lines, kinks)
+        closed = ClosedSheetMaker(self._index, self._curves.incidence, self._boundary, self._add)
+        sheets += closed.sheets({sheet.sites for sheet in sheets}, kinks, points)
         points = self._points()
         parts = RegionParts(
             np.array(self._new).reshape(-1, 3),
@@ -135,12 +141,16 @@ class RegionAssembler:
                 result[number] = int(near[number]) if known else self._add(point)
         return result
 
-    def _line(self, piece: CurvePiece, nodes: Sequence[int]) -> Ints:
+    def _sampled(self, piece: CurvePiece) -> Array:
+        """Samples (n, 3) of a curve, its ends included."""
         loop = piece.ends is None or piece.ends[0] == piece.ends[1]
         # rulings of trim surfaces have no points inside
         chords = 1 if isinstance(piece.element, RayCurve) else self._chords
         least = max(3 if loop else 1, chords, self._least_chords(piece))
-        found = sampled(piece.element, piece.points, self._tolerance, least)
+        return sampled(piece.element, piece.points, self._tolerance, least)
+
+    def _line(self, piece: CurvePiece, found: Array, nodes: Sequence[int]) -> Ints:
+        """The vertices of a curve's samples."""
         inner = [self._add(p) for p in found[1:-1]]
         if piece.ends is None:
             first = last = self._add(found[0])
@@ -166,7 +176,7 @@ class RegionAssembler:
         return max(least, 1 + int(max(turns) / TURN))
 
     def _sheets(
-        self, points: Array, lines: Sequence[Ints], nodes: Sequence[int]
+        self, points: Array, lines: Sequence[Ints], kinks: Mapping[Pair, Sequence[int]]
     ) -> list[SheetPart]:
         borders: dict[tuple[int, int], list[Ints]] = {}
         rims: dict[tuple[int, int], list[RimCurve | None]] = {}
@@ -180,7 +190,6 @@ class RegionAssembler:
             if edge.convexity is Convexity.CONVEX:
                 a, b = sorted(incidence.face_site[f] for f in edge.faces)
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
-        kinks = self._kinks(nodes)
         maker = SheetMaker(self._index, incidence, points, self._add, self._finest)
         own = SelfSheetMaker(self._index, incidence, points, self._add)
         sheets = []
@@ -190,41 +199,6 @@ class RegionAssembler:
                 continue
             sheets.extend(maker.sheets(pair, borders[pair], kinks.get(pair, [])))
         return sheets
-
-    def _closed_sheets(self, known: set[tuple[int, int]]) -> list[SheetPart]:
-        """Sheets without a border, each over a whole face that has none either."""
-        incidence = self._curves.incidence
-        boundary = incidence.boundary
-        found = []
-        for number, face in enumerate(boundary.faces):
-            if face.loops:
-                continue
-            triangles = self._boundary.of_face[number]
-            vertices, local = np.unique(triangles, return_inverse=True)
-            feet = self._boundary.points[vertices]
-            balls = inscribed_balls(
-                self._index, boundary, incidence.region, feet, incidence.inward(number, feet)
-            )
-            others = np.unique(balls.site)
-            own = incidence.face_site[number]
-            if len(others) != 1 or others[0] in (-1, own):
-                continue
-            other = int(others[0])
-            pair = (min(own, other), max(own, other))
-            if pair in known:
-                continue
-            known.add(pair)
-            numbers = np.array([self._add(p) for p in balls.centre], dtype=np.int64)
-            both = np.stack([feet, balls.foot], axis=1)
-            if own > other:
-                both = both[:, ::-1]
-            surface = SheetSurface(incidence, pair, balls.centre, both)
-            # the face's normals point out, from the far site to the face
-            shape = local.reshape(triangles.shape)
-            if own < other:
-                shape = shape[:, ::-1]
-            found.append(SheetPart(pair, surface, numbers[shape]))
-        return found
 
     def _kinks(self, nodes: Sequence[int]) -> dict[tuple[int, int], list[int]]:
         """Ends of reflexive loci: there a sheet between the carrier and another site is pointed."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
@@ -14,8 +14,8 @@ from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive_loci import Locus
-from decomp.medial.trims import solve_radius
-from decomp.tracing.equidistance import equidistant
+from decomp.medial.trims import solve_radius, try_radius
+from decomp.tracing.equidistance import Equidistant, equidistant
 from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place
 
 MERGED = 1e-3
@@ -81,17 +81,36 @@ def place_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Array
     Raises:
         GeometryError: Newton's method fails at one of the points.
     """
+    found = _on_seams(seams, which, points)
+    if not found.converged.all():
+        bad = points[~found.converged][0]
+        raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
+    return found.points
+
+
+def _on_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Equidistant:
+    """Points moved as far as that succeeds."""
     it = seams[0].incidence
     sites: Ints = np.array([seam.sites for seam in seams])[which]
     feet = np.empty((*sites.shape, 3))
     for number, seam in enumerate(seams):
         rows = np.flatnonzero(which == number)
         feet[rows] = seam.feet_near(points[rows])
-    found = equidistant(it.boundary, it.sites, sites, points, feet)
-    if not found.converged.all():
-        bad = points[~found.converged][0]
-        raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
-    return found.points
+    return equidistant(it.boundary, it.sites, sites, points, feet)
+
+
+def gaps_from(curve: CurveElement, points: Array) -> Array:
+    """How far (k,) points are from where a curve places them; infinite where it places none.
+
+    A point that cannot be moved onto a curve is not on it.
+    """
+    if isinstance(curve, SeamCurve):
+        found = _on_seams([curve], np.zeros(len(points), dtype=np.int64), points)
+        return np.where(found.converged, norm(found.points - points), np.inf)
+    if isinstance(curve, TrimCurve):
+        moved = curve.try_place(points)
+        return np.where(np.isnan(moved).any(axis=1), np.inf, norm(moved - points))
+    return norm(curve.place(points) - points)
 
 
 def place_each(curves: Sequence[CurveElement], which: Ints, points: Array) -> Array:
@@ -135,17 +154,36 @@ class TrimCurve:
     feet: Array
 
     def place(self, points: Array) -> Array:
-        """Move points (k, 3) along the normals' ruled surface onto the trim."""
+        """Move points (k, 3) along the normals' ruled surface onto the trim.
+
+        Raises:
+            GeometryError: there is no ball over the place of one of them.
+        """
+        return self.at(*self._over(points))
+
+    def try_place(self, points: Array) -> Array:
+        """The same, nan where there is no ball."""
+        return self._centres(try_radius, *self._over(points))
+
+    def at(self, s: Array, guess: Array) -> Array:
+        """The centres (k, 3) over parameters (k,), their radii being about `guess`.
+
+        Raises:
+            GeometryError: there is no ball over one of them.
+        """
+        return self._centres(solve_radius, s, guess)
+
+    def _over(self, points: Array) -> tuple[Array, Array]:
+        """Parameters (k,) of points and their distances from the feet there."""
         s = self.over.parameter(points)
         # a point far off may even be on the edge; the curve is not there
         known = norm(self.points - self.feet)[nearest_rows(self.points, points)]
-        return self.at(s, np.maximum(norm(points - self.over.feet(s)), LEAST * known))
+        return s, np.maximum(norm(points - self.over.feet(s)), LEAST * known)
 
-    def at(self, s: Array, guess: Array) -> Array:
-        """The centres (k, 3) over parameters (k,), their radii being about `guess`."""
+    def _centres(self, solve: Callable[..., Array], s: Array, guess: Array) -> Array:
         q, n = self.over.feet(s), self.over.directions(s)
         feet = self.feet[nearest_rows(self.points, q + guess[:, None] * n)]
-        r = solve_radius(self.incidence, self.over, self.far, s, feet, guess)
+        r = solve(self.incidence, self.over, self.far, s, feet, guess)
         return np.asarray(q + r[:, None] * n)
 
 

@@ -211,18 +211,7 @@ class Incidence:
             return False
         near = edge.samples[int(np.argmin(norm(edge.samples - point)))]
         foot = edge_foot(self.boundary, edge, point[None], near[None])[0]
-        if float(norm(foot - point)) > slack:
-            return False
-        if edge.closed:
-            return True
-        start, end = edge.samples[0], edge.samples[-1]
-        if min(float(norm(start - point)), float(norm(end - point))) <= slack:
-            return True
-        t = float(edge.curve.parameter(foot))
-        if edge.curve.closed:
-            period = edge.curve.period
-            return (t - edge.start) % period <= edge.end - edge.start
-        return edge.start <= t <= edge.end
+        return float(norm(foot - point)) <= slack and edge.beyond(foot) <= slack
 
 
 def angle_between(a: Array, b: Array, axis: Array) -> Array:

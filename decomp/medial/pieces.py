@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.model import CurveElement, LineKind
+from decomp.medial.curve_elements import gaps_from
 from decomp.vectors import Array, Ints, norm
 
 WELD = 1e-7
@@ -159,8 +160,7 @@ def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[Cu
     if not found:
         return [piece]
     candidates = np.array([point for _, _, point in found])
-    placed = piece.element.place(candidates)
-    on = norm(placed - candidates) <= ON * size
+    on = gaps_from(piece.element, candidates) <= ON * size
     taken: dict[int, float] = {}
     for (at, number, _), good in zip(found, on.tolist(), strict=True):
         if good:
@@ -221,8 +221,7 @@ def _coincide(a: CurvePiece, b: CurvePiece, size: float) -> bool:
     step = norm(np.diff(a.points, axis=0)).max()
     if float(gap.min()) > step:
         return False
-    placed = a.element.place(middle[None])[0]
-    return float(norm(placed - middle)) <= ON * size
+    return float(gaps_from(a.element, middle[None])[0]) <= ON * size
 
 
 def _joint(a: CurvePiece, b: CurvePiece) -> tuple[Contact, ...]:

@@ -62,7 +62,7 @@ def _sorted(a: int, b: int) -> tuple[int, int]:
 
 
 def _only_normal(incidence: Incidence, vertex: Vertex) -> Array | None:
-    if len(vertex.faces) < 3:
+    if len(vertex.faces) < 2:
         return None
     ways = np.array([incidence.inward(f, vertex.point[None])[0] for f in vertex.faces])
     return ways[0] if float(norm(ways - ways[0]).max()) <= ANGLE else None

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.medial.incidence import Incidence
-from decomp.tracing.equidistance import equidistant
+from decomp.tracing.equidistance import placed_between
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -31,7 +31,7 @@ class SheetFamily:
         """Points (k, 3), each moved onto a given member (k,), and whether that succeeded (k,)."""
         it = self._incidence
         feet = np.repeat(points[:, None], 2, axis=1)
-        found = equidistant(it.boundary, it.sites, self._sites[which], points, feet)
+        found = placed_between(it.boundary, it.sites, self._sites[which], points, feet)
         return found.points, found.converged
 
     def normal(self, which: Ints, points: Array) -> tuple[Array, Bools]:

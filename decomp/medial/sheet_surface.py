@@ -12,7 +12,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
 from decomp.medial.sheet_family import CLEAR, SheetFamily
-from decomp.tracing.equidistance import equidistant
+from decomp.tracing.equidistance import placed_between
 from decomp.tracing.fields import Field, site_fields
 from decomp.tracing.loci import on_locus
 from decomp.tracing.supports import CURVE, support_table
@@ -67,7 +67,7 @@ class SheetSurface:
     def try_place(self, points: Array) -> tuple[Array, Bools]:
         """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        found = equidistant(
+        found = placed_between(
             self.incidence.boundary,
             self.incidence.sites,
             which,

@@ -19,6 +19,7 @@ from decomp.complex.domains import Domain
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import (
     PLANE,
+    MergedError,
     Period,
     SparseError,
     Triangulation,
@@ -160,12 +161,12 @@ class SheetMaker:
         local = np.searchsorted(used, segments)
         try:
             return self._drawn(pair, used, points, local, drawing, surface)
-        except (UnevenError, MissingCurveError, CrossingError) as error:
+        except (UnevenError, MissingCurveError, CrossingError, MergedError) as error:
             if isinstance(error, CrossingError) and not self._finest:
                 raise
             first = error
         for other in self._domains.others(pair, points, feet):
-            with suppress(UnevenError, MissingCurveError, CrossingError, SparseError):
+            with suppress(UnevenError, MissingCurveError, CrossingError, MergedError, SparseError):
                 return self._drawn(pair, used, points, local, other, surface)
         raise first
 

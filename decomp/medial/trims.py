@@ -24,7 +24,9 @@ from decomp.tracing import loci
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.loci import locus_gap
-from decomp.vectors import Array, Bools, Ints, dot, norm, place
+from decomp.tracing.raising import touching_radii
+from decomp.tracing.supports import support_table
+from decomp.vectors import Array, Bools, Ints, norm, place
 
 SAMPLES = 96
 NEAREST_END = 1e-5
@@ -33,10 +35,10 @@ BESIDE_END = 11
 """So many samples are close to each end."""
 NO_LENGTH = 1e-8
 """Pieces shorter than this part of their normal curve are points."""
+SHORT, TOUCHES = 1e-2, 1e-10
+"""A stretch of the curve shorter than the first part of it whose contact is as near as another, to
+the second part of the size, is a point in which the two are equally near."""
 HALVINGS = 60
-STEPS = 40
-LEAST_SLOPE = 1e-12
-"""Changes of the distance against the radius count as no less."""
 CREPT, RUN_TOGETHER = 1e-7, 1e-3
 """Contacts nearer to each other than this part of the size have run together if they are as near
 measured by the ball too: close to a convex vertex balls are small."""
@@ -91,11 +93,52 @@ class TrimScanner:
                 _continue_to_ends(found)
         cuts = self._changes(curves, samples)
         result = []
-        for c, known, cut in zip(curves, samples, cuts, strict=True):
+        for c, known, every in zip(curves, samples, cuts, strict=True):
+            cut = self._without_touches(c, known, every)
             bounds = [self._change(c, low, high) for low, high in cut]
             whole = self._between(c, known, cut, bounds)
             result.append([part for piece in whole for part in self._turning(piece, known)])
         return result
+
+    def _without_touches(
+        self, curve: NormalCurve, samples: list[_Sample], cuts: list[tuple[_Sample, _Sample]]
+    ) -> list[tuple[_Sample, _Sample]]:
+        """Changes of the far contact, without those to one that is as near in one point only.
+
+        There its distance is least; what rounding and tolerances make of that point is a short
+        stretch between two changes, there and back. Where a closed curve starts in such a stretch
+        its first and last samples are given the contact beside it.
+        """
+        cuts = list(cuts)
+        k = 0 if curve.closed else 1
+        while k < len(cuts) and len(cuts) > 1:
+            (before, one), (other, after) = cuts[k - 1], cuts[k]
+            if before.far == after.far and self._only_touches(curve, before, one, other):
+                if k == 0:
+                    samples[0] = replace(samples[0], far=after.far, foot=after.foot)
+                    samples[-1] = replace(samples[-1], far=before.far, foot=before.foot)
+                del cuts[k], cuts[k - 1]
+                k = max(k - 1, 0 if curve.closed else 1)
+            else:
+                k += 1
+        return cuts
+
+    def _only_touches(
+        self, curve: NormalCurve, before: _Sample, one: _Sample, other: _Sample
+    ) -> bool:
+        """Whether the contact of a stretch from `one` to `other` is nowhere nearer than another."""
+        period = curve.end - curve.start
+        length = (other.s - one.s) % period if curve.closed else other.s - one.s
+        own = tuple(sorted(curve.sites))
+        if length > SHORT * period or own in (before.far, one.far):
+            return False
+        s = one.s + length * np.linspace(0.0, 1.0, 5)
+        q, n = curve.feet(s), curve.directions(s)
+        incidence = self._incidence
+        balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
+        feet = np.repeat(before.foot[None], len(s), axis=0)
+        radius = try_radius(incidence, curve, before.far[0], s, feet, balls.radius)
+        return bool(np.abs(radius - balls.radius).max() <= TOUCHES * self._size)
 
     def _turning(self, piece: TrimPiece, samples: list[_Sample]) -> list[TrimPiece]:
         """The parts of a piece between the places where it turns back at a reflexive locus."""
@@ -324,30 +367,24 @@ def solve_radius(
 ) -> Array:
     """Radii (k,) of the balls over parameters (k,) that touch site `far` near feet (k, 3).
 
-    Newton's method on d_far(q + r n) = r, whose derivative by r is g . n - 1.
-
     Raises:
-        GeometryError: it does not converge; says where.
+        GeometryError: there is none; says where.
     """
-    q, n = curve.feet(s), curve.directions(s)
-    which: Ints = np.full(len(s), far, dtype=np.int64)
-    r = np.array(guess, dtype=np.float64)
-    size = incidence.boundary.diagonal
-    near = np.array(feet)
-    step = np.zeros(len(r))
-    for _ in range(STEPS):
-        field = site_fields(incidence.boundary, incidence.sites, which, q + r[:, None] * n, near)
-        near = field.foot
-        # where both feet are one the distance does not change against the radius
-        step = (field.distance - r) / np.maximum(1 - dot(field.gradient, n), LEAST_SLOPE)
-        step = np.clip(step, -0.5 * np.abs(r) - 1e-12 * size, 0.5 * np.abs(r) + 1e-12 * size)
-        r = r + step
-        if np.abs(step).max(initial=0.0) <= 4e-16 * size:
-            break
-    if not np.abs(step).max(initial=0.0) <= 1e-12 * size:
-        bad = int(np.argmax(np.abs(step)))
-        raise GeometryError(f"the maximal ball at the boundary point {place(q[bad])} is not found")
+    r = try_radius(incidence, curve, far, s, feet, guess)
+    if np.isnan(r).any():
+        bad = curve.feet(s[np.isnan(r)])[0]
+        raise GeometryError(f"the maximal ball at the boundary point {place(bad)} is not found")
     return r
+
+
+def try_radius(
+    incidence: Incidence, curve: NormalCurve, far: int, s: Array, feet: Array, guess: Array
+) -> Array:
+    """The same, nan where there is no such ball."""
+    which: Ints = np.full(len(s), far, dtype=np.int64)
+    table = support_table(incidence.boundary, incidence.sites)
+    size = incidence.boundary.diagonal
+    return touching_radii(table, size, which, curve.feet(s), curve.directions(s), guess, feet)
 
 
 def _secant(f: Callable[[float], float], a: float, b: float) -> float:

@@ -135,16 +135,7 @@ class ContactFinder:
         if site not in self._parts:
             return True
         edge = self._boundary.edges[self._sites[site].index]
-        t = edge.curve.parameter(foot)
-        slack = ON_EDGE * self._boundary.diagonal
-        if float(norm(edge.curve.point(edge.curve.wrapped(t)) - foot)) > slack:
-            return False
-        if any(float(norm(end - foot)) <= slack for end in edge.samples[[0, -1]]):
-            return True
-        past = float(t) - edge.start
-        if edge.curve.closed:
-            past %= edge.curve.period
-        return 0 <= past <= edge.end - edge.start
+        return edge.holds(foot, ON_EDGE * self._boundary.diagonal)
 
 
 @scalar

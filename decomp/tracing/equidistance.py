@@ -16,10 +16,13 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites.site import Site
 from decomp.tracing.balance import balance_all
+from decomp.tracing.raising import raised
 from decomp.tracing.supports import SupportTable, support_table
-from decomp.vectors import Array, Bools, Ints
+from decomp.vectors import Array, Bools, Ints, norm
 
 CONVERGED = 1e-12
+POLISHED = 1e-6
+"""How far, as a part of the size, a point over its foot is moved by Newton's method at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +57,37 @@ def equidistant(
         feet: (k, m, 3), a foot on each site, or close to it.
     """
     return balanced(support_table(boundary, sites), boundary.diagonal, which, points, feet)
+
+
+def placed_between(
+    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
+) -> Equidistant:
+    """Points at equal distance from two sites each.
+
+    Newton's method takes the shortest way there, if it gets there; where it does not, as where the
+    distances' gradients are equal, the point over one of the feet is taken.
+
+    Args:
+        boundary: of the region.
+        sites: all sites, into which `which` points.
+        which: (k, 2) sites of each point.
+        points: (k, 3).
+        feet: (k, 2, 3), a foot on each site, or close to it.
+    """
+    table, size = support_table(boundary, sites), boundary.diagonal
+    found = balanced(table, size, which, points, feet)
+    lost = np.flatnonzero(~found.converged)
+    if not len(lost):
+        return found
+    over, touched, good = raised(table, size, which[lost], points[lost], feet[lost])
+    rows = lost[good]
+    again = balanced(table, size, which[rows], over[good], touched[good])
+    # what rounding is left goes in one step; a way farther than that has left the sheet's branch
+    near = again.converged & (norm(again.points - over[good]) <= POLISHED * size)
+    rows = rows[near]
+    for name in ("points", "radius", "feet", "residual", "converged"):
+        getattr(found, name)[rows] = getattr(again, name)[near]
+    return found
 
 
 def balanced(

@@ -72,6 +72,13 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
         return curve.point(curve.parameter(points))
     pair = carrier_table([boundary.carriers[k] for k in edge.carriers])
     table = SupportTable(
-        np.array([CURVE]), np.ones(1), np.array([[0, 1]]), np.zeros((1, 10)), pair, 1, 1
+        np.array([CURVE]),
+        np.ones(1),
+        np.array([[0, 1]]),
+        np.zeros((1, 10)),
+        np.array([[-np.inf, np.inf]]),
+        pair,
+        1,
+        1,
     )
     return support_fields(table, np.zeros(len(points), dtype=np.int64), points, feet).foot

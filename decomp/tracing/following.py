@@ -12,6 +12,7 @@ from math import inf, sqrt
 
 import numpy as np
 
+from decomp.kernels.carriers import Triple
 from decomp.kernels.records import Record
 from decomp.tracing.balance import balance
 from decomp.tracing.compiled import inner, scalar
@@ -26,7 +27,7 @@ from decomp.tracing.probing import (
     inside,
     nearest,
 )
-from decomp.tracing.supports import SupportTable
+from decomp.tracing.supports import SupportTable, past_end, support
 from decomp.vectors import Array, Ints
 
 FLAT = 1e-7
@@ -44,6 +45,14 @@ CLOSE = 1e-15
 """Changes are narrowed down to this part of the size."""
 VANISHED = 1e-7
 BETWEEN = 8
+LOOKS = 3
+"""At so many places of a step it is seen whether feet have left the boundary."""
+LEAST_LOOK, LEAST_WAY = 1e-4, 1e-4
+"""Steps, as parts of the size, and ways of feet, as parts of the radius, below which it is not."""
+LATE = 3e-6
+"""An intruder that is as near for longer than this part of the size has joined before."""
+PAST = 1e-9
+"""A foot so far beyond its edge's end, as a part of the size, has left it."""
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
 
 
@@ -200,6 +209,49 @@ def returns(track: Track, row: int, home: Array) -> bool:
     return bool(0.0 < along <= 1.0 and off <= 0.01 * square and same > 0.9)
 
 
+@inner
+def _foot(track: Track, row: int) -> Triple:
+    return track.feet[row, 0], track.feet[row, 1], track.feet[row, 2]
+
+
+@inner
+def leaves_between(
+    table: SupportTable, probe: Probe, which: Ints, track: Track, here: int, row: int
+) -> bool:
+    """Whether a foot leaves the boundary on the way from row `here` to another.
+
+    It can leave its site and come to another one of the same support: across a notch, the edge or
+    the face beyond it.
+    """
+    count = len(which)
+    for c in range(count):
+        a, b = _foot(track, here * count + c), _foot(track, row * count + c)
+        way = sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+        if way <= LEAST_WAY * track.radius[row]:
+            continue
+        for look in range(1, LOOKS + 1):
+            u = look / (LOOKS + 1.0)
+            x = track.points[here, 0] + u * (track.points[row, 0] - track.points[here, 0])
+            y = track.points[here, 1] + u * (track.points[row, 1] - track.points[here, 1])
+            z = track.points[here, 2] + u * (track.points[row, 2] - track.points[here, 2])
+            _, _, _, _, qx, qy, qz = support(
+                table,
+                which[c],
+                x,
+                y,
+                z,
+                a[0] + u * (b[0] - a[0]),
+                a[1] + u * (b[1] - a[1]),
+                a[2] + u * (b[2] - a[2]),
+            )
+            reach = sqrt((qx - x) ** 2 + (qy - y) ** 2 + (qz - z) ** 2)
+            bound = (1.0 - TOWARDS) * reach + probe.slack
+            x, y, z = x + TOWARDS * (qx - x), y + TOWARDS * (qy - y), z + TOWARDS * (qz - z)
+            if inside(probe, x, y, z) and nearest(probe, x, y, z).distance > bound:
+                return True
+    return False
+
+
 @scalar
 def follow(
     table: SupportTable,
@@ -234,7 +286,7 @@ def follow(
     count, last, room = len(which), 0, len(track.radius)
     step, low, high = min(FIRST * size, 0.2 * track.radius[0]), 0.0, -1.0
     change, contact, kind = HOLDS, -1, HOLDS
-    narrowing, failed = False, False
+    narrowing, failed, beyond = False, False, PAST * size
     while True:
         if not narrowing:
             if last + 3 >= room:
@@ -305,10 +357,13 @@ def follow(
                 if away < bound:
                     change, contact = INTRUDED, -1
                     break
-            elif away > bound:
+            elif away > bound or past_end(table, which[q - 1], *_foot(track, row)) > beyond:
                 change, contact = LOST, q - 1
                 break
-        if change == HOLDS and not rough and (not narrowing or kind == JOINED):
+        if change == HOLDS and not rough and not narrowing and length > LEAST_LOOK * size:
+            rough = leaves_between(table, probe, which, track, last, trial)
+        late = kind == INTRUDED and high - length > LATE * size
+        if change == HOLDS and not rough and (not narrowing or kind == JOINED or late):
             first = trial * count
             if another(probe, x, y, z, radius, track.feet, first, count):
                 change, contact = JOINED, -1

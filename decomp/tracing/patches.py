@@ -25,7 +25,7 @@ from decomp.vectors import Array, Ints, frame, norm
 SAMPLES = 257
 """Points of every edge of the face."""
 SAME = 1e-6
-"""Contacts nearer to the end of an edge than this part of the radius are at it."""
+"""Contacts nearer to an edge, or to its end, than this part of the radius are at it."""
 NEXT = 6.0
 """Points of one edge are two contacts if they are so many samples apart."""
 ON_BOUNDARY = 1e-9
@@ -120,9 +120,14 @@ class _Corners:
         numbers = {k for k, _ in edges}
         ends = {vertex for _, edge in edges for vertex in edge.vertices or ()}
         corners = np.array([boundary.vertices[v].point for v in ends]).reshape(-1, 3)
-        # where a smooth edge ends another face's contact is a corner, too
+        # where a smooth edge ends another face's contact is a corner, too, and along it the face
+        # beyond is as near
+        slack = SAME * touching.radius
         self.single = [
-            k for k in single if not _is_among(touching.feet[k], corners, touching.radius)
+            k
+            for k in single
+            if not _is_among(touching.feet[k], corners, slack)
+            and not any(edge.holds(touching.feet[k], slack) for _, edge in edges)
         ]
         feet = [touching.feet[self.single]]
         self.kinds = [frozenset({-1 - k}) for k in self.single]
@@ -165,5 +170,5 @@ class _Corners:
         return False
 
 
-def _is_among(foot: Array, corners: Array, radius: float) -> bool:
-    return bool((norm(corners - foot) <= SAME * radius).any())
+def _is_among(foot: Array, corners: Array, slack: float) -> bool:
+    return bool((norm(corners - foot) <= slack).any())

@@ -195,7 +195,7 @@ class SeamStops:
                 )
                 if found == JOINS:
                     found = self._arrive(stretch, base, spare, (low, high), wall, foot, spot)
-                if found == MISSED:
+                if found == MISSED or self._walls.beyond(wall, spot) > FOOT_ON_EDGE * self._size:
                     continue
                 off = float(norm(spot - foot))
                 if off <= NEAR_WALL * self._size and (best is None or off < best[0]):

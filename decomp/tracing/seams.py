@@ -84,7 +84,8 @@ class SeamTracer:
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.FIN, -1, nothing)
             if why in (FULL, ENDED, CLOSED, STUCK):
-                runs.append(stretch.run(count))
+                # the last row of a closed seam lies past its first
+                runs.append(stretch.run(count - 1 if why == CLOSED else count))
                 if why == FULL:
                     here = last
                     continue
@@ -92,7 +93,7 @@ class SeamTracer:
                     return Traced(tuple(runs), last, SeamEnd.BOUNDARY, -1, nothing)
                 if why == CLOSED:
                     return Traced(tuple(runs), last, SeamEnd.CLOSED, -1, nothing)
-                if len(points.contacts.at(last.point, 1e-7 * size).feet) > 3:
+                if self._stuck_at_node(last):
                     return Traced(tuple(runs), last, SeamEnd.SPLIT, -1, nothing)
                 raise GeometryError(f"a seam cannot be followed past {place(last.point)}")
             beyond = stretch.state(count)
@@ -139,6 +140,14 @@ class SeamTracer:
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             here = switched
         raise GeometryError(f"the seam from {place(start.point)} does not end")
+
+    def _stuck_at_node(self, last: State) -> bool:
+        """Whether a seam ends where it cannot be followed: more is touched, or a whole arc is."""
+        points = self._points
+        touching = points.contacts.at(last.point, 1e-7 * points.size)
+        return len(touching.feet) > 3 or any(
+            points.on_locus(sites, last.point) for sites in touching.sites
+        )
 
     def _onwards(self, at: State) -> State | None:
         """The same point with the sites of the seam behind it, None if it does not go on alone.

@@ -55,6 +55,7 @@ class SupportTable(Record):
         signs: (n,), by which a face's signed distance is positive inside the region.
         flanks: carriers (n, 2) of an edge; a face's own carrier first.
         data: (n, 10): line: origin, direction; circle: centre, x, y, radius; point: itself.
+        ends: (n, 2), where a straight edge begins and ends along its line; else infinite.
         carriers: of the model.
         first_edge: row of the region's first edge.
         first_vertex: row of its first vertex.
@@ -64,6 +65,7 @@ class SupportTable(Record):
     signs: Array
     flanks: Ints
     data: Array
+    ends: Array
     carriers: CarrierTable
     first_edge: int
     first_vertex: int
@@ -90,6 +92,7 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
     signs = np.ones(count)
     flanks = np.zeros((count, 2), dtype=np.int64)
     data = np.zeros((count, 10))
+    ends = np.tile([-np.inf, np.inf], (count, 1))
 
     def put_edge(row: int, edge: Edge) -> None:
         curve = edge.curve
@@ -97,6 +100,7 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
         if isinstance(curve, Line):
             kinds[row] = LINE
             data[row, :6] = *curve.origin, *curve.direction
+            ends[row] = edge.start, edge.end
         elif isinstance(curve, Circle):
             kinds[row] = CIRCLE
             data[row] = *curve.centre, *curve.x, *curve.y, curve.radius
@@ -120,6 +124,7 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
         signs,
         flanks,
         data,
+        ends,
         carrier_table(boundary.carriers),
         len(sites),
         len(sites) + len(edges),
@@ -164,6 +169,20 @@ def support(
     if away > 0.0:
         gx, gy, gz = gx / away, gy / away, gz / away
     return away, gx, gy, gz, qx, qy, qz
+
+
+@inner
+def past_end(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> float:
+    """How far a foot on a straight edge's line is beyond the edge; negative inside it."""
+    if table.kinds[k] != LINE:
+        return -1.0
+    data = table.data
+    along = (
+        (qx - data[k, 0]) * data[k, 3]
+        + (qy - data[k, 1]) * data[k, 4]
+        + (qz - data[k, 2]) * data[k, 5]
+    )
+    return float(max(table.ends[k, 0] - along, along - table.ends[k, 1]))
 
 
 @inner

@@ -72,7 +72,7 @@ def joined(back: Traced, forward: Traced) -> Traced:
 
 
 def seam_of(traced: Traced, ends: tuple[int, int] | None) -> Seam:
-    """A seam of all runs; a closed one without the last point, which lies past its first."""
+    """A seam of all runs."""
     runs = [run for run in traced.runs if len(run.points)]
     points = np.concatenate([run.points for run in runs])
     radius = np.concatenate([run.radius for run in runs])
@@ -82,8 +82,6 @@ def seam_of(traced: Traced, ends: tuple[int, int] | None) -> Seam:
     keep = np.ones(len(points), dtype=np.bool_)
     for k in range(1, len(points)):
         keep[k] = sites[k] != sites[k - 1] or bool((points[k] != points[k - 1]).any())
-    if ends is None:
-        keep[-1] = False
     rows = np.flatnonzero(keep)
     return Seam(points[rows], radius[rows], tuple(sites[k] for k in rows), feet[rows], ends)
 

@@ -81,6 +81,13 @@ class Walls:
                     ),
                 ]
 
+    def beyond(self, wall: Wall, spot: Array) -> float:
+        """How far a point on a wall's edge, untrimmed, is from the edge's ends; 0 between them.
+
+        Where a straight edge goes on smoothly into an arc, its line stays close to the arc.
+        """
+        return self._boundary.edges[wall.edge - self._table.first_edge].beyond(spot)
+
 
 @inner
 def wall_gap(
