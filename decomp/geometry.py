@@ -28,7 +28,7 @@ class Geometry:
 
     Raises:
         FileError: the file cannot be read; its subclasses say where.
-        GeometryError: a region is empty, unbounded, overlaps another or touches itself.
+        GeometryError: a region is empty, unbounded, overlaps another, or cannot be resolved.
     """
 
     def __init__(self, source: Model | Solid | dict[str, Solid] | str | Path) -> None:

@@ -12,7 +12,7 @@ from decomp.boundary.arcs import Arrangement, arrange
 from decomp.boundary.assembled import assembled
 from decomp.boundary.edges import RawEdge, raw_edges
 from decomp.boundary.faces import RawFace, face_at, raw_faces
-from decomp.boundary.loops import LoopSet, loop_sets
+from decomp.boundary.loops import LoopSet, loop_sets, touches_at
 from decomp.boundary.member import Member
 from decomp.boundary.topology import RegionBoundary
 from decomp.boundary.touching import touching_regions
@@ -107,7 +107,8 @@ def boundaries(model: Model) -> Boundaries:
         EmptyRegionError: a region has no interior.
         UnboundedRegionError: a region reaches infinity; names the direction.
         OverlapError: two regions share interior points.
-        ContactError: a region touches itself along a curve or at a point.
+        ContactError: carriers touch in a way that is not resolved. Where a region touches itself
+            its boundary says so (`RegionBoundary.touches`).
     """
     form = half_space_form(model)
     result = _boundaries_of(form)
@@ -143,17 +144,20 @@ def _reach(form: HalfSpaceForm) -> float:
 
 def _build(arrangement: Arrangement, surroundings: list[Star], member: Member) -> _Source:
     form = member.form
-    edges, points = raw_edges(arrangement, surroundings, member)
+    edges, points, touches = raw_edges(arrangement, surroundings, member)
     checks.refuse_unbounded(arrangement, member)
-    sets = loop_sets(edges, points, member)
+    sets, umbrellas = loop_sets(edges, points, member)
+    touches += touches_at(edges, points, member, umbrellas)
     faces = raw_faces(edges, sets, member, arrangement.radius)
     if not faces:
         raise EmptyRegionError(
             f"region {member.name!r} is empty: its Boolean expression leaves no interior"
         )
-    for contact in arrangement.contacts:
-        checks.refuse_point_contact(arrangement, contact, member)
-    boundary = assembled(form, member, edges, points, sets, faces, arrangement.radius)
+    tangent = (checks.touch_between(arrangement, each, member) for each in arrangement.contacts)
+    touches += [said for said in tangent if said is not None]
+    parts = [len(around) for around in umbrellas]
+    boundary = assembled(form, member, edges, points, parts, sets, faces, arrangement.radius)
+    boundary = replace(boundary, touches=tuple(touches))
     return _Source(arrangement, surroundings, member, edges, sets, faces, boundary)
 
 
