@@ -15,7 +15,7 @@ from decomp.boundary.faces import RawFace, face_at, raw_faces
 from decomp.boundary.loops import LoopSet, loop_sets, touches_at
 from decomp.boundary.member import Member
 from decomp.boundary.topology import RegionBoundary
-from decomp.boundary.touching import touching_regions
+from decomp.boundary.touching import tangent_carriers, touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import Model
@@ -63,6 +63,12 @@ class Boundaries:
         """Pairs of regions that share a piece of surface, lower index first."""
         whole = [face for s in self._sources for face in s.faces if not face.loops]
         return touching_regions(self.form, self._sources[0].stars, whole)
+
+    @cached_property
+    def tangent(self) -> frozenset[frozenset[int]]:
+        """Pairs of carriers that are tangent to each other along a curve or at a point."""
+        source = self._sources[0]
+        return tangent_carriers(source.stars, source.arrangement.contacts)
 
     def face_at(self, region: int, carrier: int, points: Array) -> Ints:
         """Indices (n,) of a region's faces that hold points (n, 3) of a carrier, else -1.

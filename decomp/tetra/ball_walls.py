@@ -45,7 +45,8 @@ class _Balls:
     def __init__(self, geometry: Geometry, surface: MeshSurface, number: int) -> None:
         self.surface, self.boundary = surface, surface.regions[number].boundary
         self.queries = region_queries(geometry.index, number)
-        self.owner, self.meeting = owners_and_meeting(surface, number)
+        self.owner, self._meeting = owners_and_meeting(surface, number)
+        self._tangent = geometry.boundaries.tangent
 
     def facing(self, face: int, some: Array) -> tuple[Array, Array, Array, Array, Bools]:
         """Points (k, 3) of a face among some (n, 3) that have something across from them.
@@ -76,9 +77,15 @@ class _Balls:
         rows = np.flatnonzero(good)
         q, centre, foot, radius = q[rows], centre[rows], foot[rows], balls.radius[rows]
         touched = self._faces(centre, foot)
-        meet = [frozenset((face, other)) in self.meeting for other in touched.tolist()]
+        meet = [self._meet(face, other) for other in touched.tolist()]
         rows = np.flatnonzero((touched >= 0) & ~np.array(meet, dtype=np.bool_))
         return q[rows], centre[rows], foot[rows], 2 * radius[rows], touched[rows] == face
+
+    def _meet(self, face: int, other: int) -> bool:
+        """Whether there is no wall between two faces: they meet in an edge, or make a cusp."""
+        faces = self.boundary.faces
+        carriers = frozenset((faces[face].carrier, faces[other].carrier))
+        return frozenset((face, other)) in self._meeting or carriers in self._tangent
 
     def _faces(self, centre: Array, foot: Array) -> Ints:
         """The faces (k,) that own the feet of balls, -1 where they are not found."""

@@ -44,19 +44,25 @@ LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
 
-def usual_epsilon(geometry: Geometry, length: float) -> float:
-    """Epsilon as far as it is known without the skeleton, for edges of a length."""
+def usual_epsilon(geometry: Geometry, length: float, cusp: float = 0.0) -> float:
+    """Epsilon as far as it is known without the skeleton, for edges of a length.
+
+    Angles below that of a cusp (degrees) do not count.
+    """
     smallest = min(region.diagonal for region in geometry.regions)
     epsilon = min(USUAL * smallest, OF_LENGTH * length)
-    sharpest = min(sharpest_angle(region) for region in geometry.regions) / 2
+    sharpest = min(sharpest_angle(region, cusp) for region in geometry.regions) / 2
     narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))
     epsilon *= min(1.0, float(narrow**2))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
     return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
 
 
-def sharpest_angle(boundary: RegionBoundary) -> float:
-    """The least interior angle (degrees) between two faces along a convex edge; 180 for none."""
+def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
+    """The least interior angle (degrees) between two faces along a convex edge; 180 for none.
+
+    Only angles of at least `cusp` count.
+    """
     least = 180.0
     for edge in boundary.edges:
         if edge.convexity is Convexity.CONVEX:
@@ -67,7 +73,7 @@ def sharpest_angle(boundary: RegionBoundary) -> float:
                 for face in edge.faces
             )
             angles = np.degrees(np.arccos(np.clip(-dot(one, two), -1, 1)))
-            least = min(least, float(angles.min()))
+            least = min(least, float(angles[angles >= cusp].min(initial=180.0)))
     return least
 
 
@@ -96,12 +102,12 @@ def fitting_epsilon(
 def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
     """Whether boundaries face each other across the outside, less than a width apart.
 
-    Faces that meet in an edge make a groove there, not a gap.
+    Faces that meet in an edge make a groove there, not a gap, and tangent ones a cusp.
     """
     mesh = surface.complex
     index = geometry.index
     edges = [edge for region in geometry.regions for edge in region.edges]
-    meeting = {frozenset(edge.carriers) for edge in edges}
+    meeting = {frozenset(edge.carriers) for edge in edges} | geometry.boundaries.tangent
     for region in surface.regions:
         boundary = region.boundary
         for face, sides in zip(boundary.faces, region.face_sides, strict=True):

@@ -24,6 +24,9 @@ from decomp.vectors import Array, Ints
 
 CHORD, COARSEST = 0.4, 0.65
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
+CUSP = 2.0
+"""Faces that meet at less than this angle (degrees) make a cusp, whose tip no epsilon fits into.
+Only sheets, which end in it, need as small a one as there is."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
 
@@ -77,7 +80,7 @@ def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
     make = _maker(geometry, cells, tell)
     longest = float(sizes.min())
-    epsilon = usual_epsilon(geometry, longest)
+    epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
     surface = make(CHORD * epsilon)
     epsilon = fitting_epsilon(geometry, surface, epsilon, longest)
     surface = _fine_enough(surface, epsilon, make)
