@@ -65,6 +65,7 @@ def _region_json(region: RegionBoundary) -> dict[str, Any]:
         "area_error": region.area_error,
         "bbox": region.bounds.tolist(),
         "euler": region.euler,
+        "touches": list(region.touches),
         "faces": [
             {
                 "name": face.name,
@@ -129,6 +130,7 @@ def _region_text(region: RegionBoundary) -> list[str]:
     kinds = Counter(("", v.convexity.value) for v in region.vertices)
     plural = "vertex" if len(region.vertices) == 1 else "vertices"
     lines.append(f"  {len(region.vertices)} {plural}{_shapes(kinds)}")
+    lines += [f"  no skeleton: {said}" for said in region.touches]
     return lines
 
 

@@ -34,6 +34,9 @@ FILES = {
     "stretched.csg": "multmatrix([[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(r = 1); }\n",
     "apart.geo": GEO + "solid apart = sphere (0,0,0; 1) and sphere (5,0,0; 1);\ntlo apart;\n",
     "endless.geo": GEO + "solid endless = plane (0,0,0; 0,0,1);\ntlo endless;\n",
+    "kiss.geo": GEO
+    + "solid one = sphere (0,0,0; 1);\nsolid two = sphere (2,0,0; 1);\nsolid kiss = one or two;\n"
+    "tlo kiss;\n",
     "tangled.geo": GEO
     + "solid a = sphere (0,0,0; 1);\nsolid b = sphere (1,0,0; 1);\ntlo a;\ntlo b;\n",
 }

@@ -138,9 +138,7 @@ def test_a_film_between_two_blocks() -> None:
 
 
 PARTS = {
-    "rod end": (
-        decomp.Cylinder((60, 0, 0), (60, 0, 8), 10) | decomp.Block((0, -7, 2), (60, 14, 4))
-    )
+    "rod end": (decomp.Cylinder((60, 0, 0), (60, 0, 8), 10) | decomp.Block((0, -7, 2), (60, 14, 4)))
     - decomp.Cylinder((60, 0, -1), (60, 0, 9), 6),
     "hole as deep as wide": decomp.Block((0, 0, 0), (80, 60, 10))
     - decomp.Cylinder((60, 15, 5), (60, 15, 11), 5),
