@@ -71,6 +71,35 @@ def test_neighbours_share_their_interface() -> None:
     assert np.linalg.norm(normal, axis=1).sum() / 2 == pytest.approx(4, rel=1e-12)
 
 
+def test_a_face_between_two_faces_of_one_neighbour() -> None:
+    """A slab under a region of two posts: each interface is where its post stands."""
+    slab = decomp.Block((0, 0, 0), (6, 2, 1), name="slab")
+    posts = decomp.Block((0, 0, 1), (2, 2, 1), name="left") | decomp.Block(
+        (4, 0, 1), (2, 2, 1), name="right"
+    )
+    exact = decomp.Geometry({"slab": slab, "posts": posts})
+    mesh = decomp.mesh(exact, size=0.7, cells="none")
+    sound(exact, mesh)
+    for name, low, high in (("left", 0, 2), ("right", 4, 6)):
+        group = mesh.group(f"slab/slab.zmax|posts/{name}.zmin", 2)
+        across = mesh.points[mesh.triangles[mesh.triangle_tags == group.tag]][..., 0]
+        assert (across.min(), across.max()) == (low, high)
+
+
+def test_a_region_that_touches_itself() -> None:
+    """Along an edge, where both blocks share nodes and nothing else."""
+    solid = decomp.Block((0, 0, 0), (1, 1, 1)) | decomp.Block((1, 1, 0), (1, 1, 1))
+    exact = decomp.Geometry(solid)
+    mesh = decomp.mesh(exact, size=0.4, cells="none")
+    sound(exact, mesh)
+    assert volumes(mesh.points, mesh.tets).sum() == pytest.approx(2, rel=1e-12)
+    left = np.unique(mesh.tets[mesh.points[mesh.tets].mean(axis=1)[:, 0] < 1])
+    right = np.unique(mesh.tets[mesh.points[mesh.tets].mean(axis=1)[:, 0] > 1])
+    shared = mesh.points[np.intersect1d(left, right)]
+    assert len(shared) >= 3
+    assert (shared[:, :2] == 1).all()
+
+
 def test_curved_elements() -> None:
     mesh = bare("blind hole", order=2)
     assert mesh.tets.shape[1] == 10
