@@ -17,12 +17,14 @@ from decomp.tetra.check import check
 from decomp.tetra.mesh import GroupKind, TetMesh
 from decomp.tetra.quality import inverted, volumes
 from tests.solids import SOLIDS
-from tests.tetra.meshes import MODELS, geometry
+from tests.tetra.meshes import geometry
 
-EVERY = (
-    *("block", "cylinder", "cone", "sphere", "torus", "through hole", "blind hole", "bracket"),
-    *("equal tee", "bite in a corner", "half torus", "slot", *MODELS),
+QUICK = (
+    *("block", "cylinder", "sphere", "through hole", "blind hole", "bracket"),
+    *("bite in a corner", "slot", "two boxes"),
 )
+SLOW = ("cone", "torus", "equal tee", "half torus", "ball in a box")
+EVERY = (*QUICK, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW))
 
 
 @pytest.fixture(autouse=True)
@@ -147,6 +149,7 @@ def pipe() -> Solid:
     )
 
 
+@pytest.mark.slow
 def test_a_thin_wall() -> None:
     """Edges are at most four times as long as the wall is thick, and it stays whole."""
     exact = decomp.Geometry(pipe())
@@ -154,6 +157,7 @@ def test_a_thin_wall() -> None:
     sound(exact, mesh, volume_error=1e-2)
 
 
+@pytest.mark.slow
 def test_a_film_between_two_blocks() -> None:
     """Three regions, the middle one a hundred times thinner than it is long."""
     layers = {"low": (0.0, 0.5), "film": (0.5, 0.54), "high": (0.54, 1.0)}
@@ -177,6 +181,7 @@ PARTS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PARTS)
 def test_parts_whose_skeletons_are_hard(name: str) -> None:
     exact = decomp.Geometry(PARTS[name])
