@@ -161,7 +161,7 @@ def test_a_thin_wall() -> None:
 def test_a_film_between_two_blocks() -> None:
     """Three regions, the middle one a hundred times thinner than it is long."""
     layers = {"low": (0.0, 0.5), "film": (0.5, 0.54), "high": (0.54, 1.0)}
-    solids = {
+    solids: dict[str, Solid] = {
         name: decomp.Block((0, 0, a), (4, 4, b - a), name=name) for name, (a, b) in layers.items()
     }
     exact = decomp.Geometry(solids)
