@@ -7,29 +7,32 @@ is known have one.
 from __future__ import annotations
 
 from decomp.complex.boundary import BoundaryMesh, boundary_mesh
-from decomp.complex.refine import refined
 from decomp.drafts import SHARE
 from decomp.geometry import Geometry
 from decomp.medial.result import Cell
+from decomp.tetra.far_spheres import refined_apart
 from decomp.tetra.surface import MeshSurface, RegionSurface, checked, coarsest
+from decomp.vectors import Array
 
 
-def boundary_surface(geometry: Geometry, tolerance: float) -> MeshSurface:
+def boundary_surface(geometry: Geometry, sizes: Array, tolerance: float) -> MeshSurface:
     """The boundaries, as coarse as they may be.
 
     Args:
         geometry: of the model.
-        tolerance: chord tolerance, in model units; a finer one is taken if that fails.
+        sizes: (r,) the largest edge wanted in each region.
+        tolerance: chord tolerance, in model units; a finer one is taken if that fails. Whole
+            spheres far from all else may be coarser (`far_spheres`).
 
     Raises:
         GeometryError: faces cannot be triangulated; says where.
     """
-    return coarsest(lambda fine: _made(geometry, fine), tolerance)
+    return coarsest(lambda fine: _made(geometry, sizes, fine), tolerance)
 
 
-def _made(geometry: Geometry, tolerance: float) -> MeshSurface:
+def _made(geometry: Geometry, sizes: Array, tolerance: float) -> MeshSurface:
     drawn = boundary_mesh(geometry, SHARE * tolerance)
-    mesh, _ = refined(drawn.complex, tolerance)
+    mesh = refined_apart(drawn, tolerance, sizes)
     regions = tuple(_region(geometry, drawn, number) for number in range(len(geometry.regions)))
     return checked(MeshSurface(geometry.sites, mesh, tolerance, regions, has_skeleton=False))
 

@@ -78,7 +78,7 @@ def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -
     """
     sizes = region_sizes(geometry, wanted)
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
-    make = _maker(geometry, cells, tell)
+    make = _maker(geometry, cells, sizes, tell)
     longest = float(sizes.min())
     epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
     surface = make(CHORD * epsilon)
@@ -107,11 +107,13 @@ def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -
     )
 
 
-def _maker(geometry: Geometry, cells: Cells, tell: Progress) -> Callable[[float], MeshSurface]:
+def _maker(
+    geometry: Geometry, cells: Cells, sizes: Array, tell: Progress
+) -> Callable[[float], MeshSurface]:
     """What makes a complex for a chord tolerance, in model units."""
     if cells == "none":
         tell("triangulating the boundary", 0.0)
-        return partial(boundary_surface, geometry)
+        return partial(boundary_surface, geometry, sizes)
     return partial(SurfaceMaker(geometry, tell).made, by_face=cells == "face")
 
 

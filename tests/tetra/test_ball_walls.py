@@ -9,14 +9,15 @@ import decomp
 from decomp.csg.solid import Solid
 from decomp.tetra.boundary_surface import boundary_surface
 from decomp.tetra.features import fitting_epsilon, least_thickness, thickness
-from decomp.tetra.sizes import Wanted, wishes
+from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
 from tests.solids import SOLIDS
 
 
 def surface_of(solid: Solid) -> tuple[decomp.Geometry, MeshSurface]:
     geometry = decomp.Geometry(solid)
-    return geometry, boundary_surface(geometry, 2e-3 * geometry.diagonal)
+    sizes = region_sizes(geometry, Wanted())
+    return geometry, boundary_surface(geometry, sizes, 2e-3 * geometry.diagonal)
 
 
 def pipe(wall: float) -> Solid:
