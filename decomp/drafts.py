@@ -9,6 +9,7 @@ import numpy as np
 
 from decomp.complex.boundary import BoundaryMesh, boundary_mesh
 from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.errors import ContactError
 from decomp.geometry import Geometry
 from decomp.medial.assembly import RegionAssembler, RegionParts
 from decomp.medial.region_curves import RegionCurves, region_curves
@@ -66,7 +67,14 @@ def traced(
         geometry: of the model.
         samples: boundary points from which seams are looked for that no node leads to.
         tell: is told what is being done, and which part (0 to 1) of the tracing is behind.
+
+    Raises:
+        ContactError: a region touches itself; says where.
+        GeometryError: a curve cannot be traced.
     """
+    for boundary in geometry.regions:
+        if boundary.touches:
+            raise ContactError(boundary.touches[0])
     curves = []
     for number, boundary in enumerate(geometry.regions):
         tell(f"tracing {boundary.name}", number / len(geometry.regions))

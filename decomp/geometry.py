@@ -31,8 +31,8 @@ class Geometry:
     Raises:
         InputError: the source is none of these.
         FileError: the file cannot be read; its subclasses say where.
-        GeometryError: all regions are empty, or one is unbounded, overlaps another or touches
-            itself.
+        GeometryError: all regions are empty, or one is unbounded, overlaps another, or cannot be
+            resolved.
     """
 
     def __init__(self, source: Model | Solid | dict[str, Solid] | str | Path) -> None:

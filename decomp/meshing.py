@@ -1,6 +1,6 @@
 """From a model to a tetrahedral mesh with a name on every cell, face, interface and sheet.
 
-1. The exact skeleton, as one complex of triangles.
+1. The exact skeleton, as one complex of triangles; without cells the exact boundary.
 2. fTetWild fills the box around it with tetrahedra that conform to it.
 3. Each tetrahedron is told its cell, each triangle between cells its patch, by exact queries.
 4. Nodes are moved onto the exact surfaces, curves and points that they belong to.
@@ -17,6 +17,7 @@ import numpy as np
 from decomp.arguments import called, one_of, switch
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
+from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.tetra.cells import OUTSIDE
 from decomp.tetra.check_names import resolved
@@ -25,7 +26,7 @@ from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.mesh import Group, TetMesh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
-from decomp.tetra.preparation import Prepared, Progress, prepared
+from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
 from decomp.tetra.tetrahedra import Filled, filled
@@ -45,7 +46,7 @@ def mesh(
     layers: int | None = None,
     elements_per_circle: float | None = None,
     order: int = 1,
-    cells: Literal["skeleton", "face"] = "skeleton",
+    cells: Cells = "skeleton",
     volumes: Literal["cells", "regions"] = "cells",
     sheets: bool = True,
     fields: Sequence[str] = (),
@@ -61,8 +62,10 @@ def mesh(
         layers: at least so many elements across thin parts.
         elements_per_circle: at least so many edges around a full circle of a curved face.
         order: 1 for straight elements, 2 for quadratic ones.
-        cells: `skeleton`, or `face` for one cell for each boundary face.
-        volumes: `cells`, or `regions` for one physical volume for each region.
+        cells: `skeleton`, `face` for one cell for each boundary face, or `none`: then no skeleton
+            is computed, and the mesh has faces, interfaces and regions alone.
+        volumes: `cells`, or `regions` for one physical volume for each region, which is all there
+            is without cells.
         sheets: whether triangles between the cells of a region are tagged.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
@@ -78,16 +81,16 @@ def mesh(
         MeshingError: TetWild fails.
     """
     order = one_of(order, (1, 2), "order")
-    cells = one_of(cells, ("skeleton", "face"), "cells")
+    cells = one_of(cells, ("skeleton", "face", "none"), "cells")
     volumes = one_of(volumes, ("cells", "regions"), "volumes")
     sheets = switch(sheets, "sheets")
     called(progress, "progress")
     seconds = None if timeout is None else positive(timeout, "timeout")
-    asked = checked_fields(fields)
+    asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
-    given = prepared(geometry, wanted, cells == "face", _between(tell, 0.0, PREPARED))
+    given = _prepared(geometry, wanted, cells, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
     limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
@@ -100,7 +103,7 @@ def mesh(
     )
     triangles, tags = triangles[tags > 0], tags[tags > 0]
     cell = given.known.cell_of(part) + 1
-    if volumes == "cells":
+    if volumes == "cells" and cells != "none":
         solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
     else:
         solid = region_groups(geometry, given.sizes)
@@ -118,6 +121,16 @@ def mesh(
         source=geometry.model.source,
     )
     return with_fields(geometry, result, asked, cell) if asked else result
+
+
+def _prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:
+    """What TetWild is given; where there is no skeleton for it, how to do without is said."""
+    try:
+        return prepared(geometry, wanted, cells, tell)
+    except GeometryError as error:
+        if cells == "none":
+            raise
+        raise GeometryError(f"{error}; '--cells none' makes a mesh without cells") from error
 
 
 def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints]:

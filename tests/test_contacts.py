@@ -1,11 +1,13 @@
 """Degenerate positions: coincident faces, tangency, contact along lines and at points.
 
-They are normal input: either the exact result, or an error that says what touches what.
+They are normal input, and a region that touches itself says what touches what and has no skeleton.
 """
 
 from __future__ import annotations
 
+import json
 from math import pi
+from pathlib import Path
 
 import pytest
 
@@ -20,7 +22,9 @@ from decomp import (
     Solid,
     Sphere,
     Torus,
+    skeleton,
 )
+from decomp.cli.main import main
 from decomp.errors import ContactError, EmptyRegionError, OverlapError, UnboundedRegionError
 
 CUBE = Block((-1, -1, -1), (2, 2, 2), name="cube")
@@ -120,20 +124,59 @@ RESOLVED = {
     ),
 }
 
-REFUSED = {
-    "log on a table": CUBE | Cylinder((-2, 0, 2), (2, 0, 2), 1, name="log"),
-    "bore tangent to a face": CUBE - InfiniteCylinder((0, 0, 0.5), (1, 0, 0), 0.5, name="bore"),
-    "ball on a table": CUBE | Sphere((0, 0, 2), 1, name="ball"),
-    "bubble that touches a face": CUBE - Sphere((0, 0, 0.5), 0.5, name="bubble"),
-    "two balls": Sphere((0, 0, 0), 1, name="one") | Sphere((2, 0, 0), 1, name="two"),
-    "cubes that share an edge": CUBE | Block((1, 1, -1), (2, 2, 2), name="other"),
-    "cubes that share a corner": CUBE | Block((1, 1, 1), (2, 2, 2), name="other"),
-    "cone on its tip": CUBE | Cone((0, 0, 1), 0, (0, 0, 2), 0.5, name="top"),
-    "hourglass": Cone((0, 0, -1), 1, (0, 0, 0)) | Cone((0, 0, 0), 0, (0, 0, 1), 1),
-    "parallel cylinders that touch": Cylinder((0, 0, 0), (0, 0, 1), 1, name="one")
-    | Cylinder((2, 0, 0), (2, 0, 1), 1, name="two"),
-    "ring on a table": Block((-4, -4, -2), (8, 8, 1)) | Torus((0, 0, 0), (0, 0, 1), 2, 1),
+TOUCHING = {
+    "log on a table": (CUBE | Cylinder((-2, 0, 2), (2, 0, 2), 1, name="log"), 8 + 4 * pi, 2),
+    "bore tangent to a face": (
+        CUBE - InfiniteCylinder((0, 0, 0.5), (1, 0, 0), 0.5, name="bore"),
+        8 - pi / 2,
+        1,
+    ),
+    "ball on a table": (CUBE | Sphere((0, 0, 2), 1, name="ball"), 8 + 4 / 3 * pi, 2),
+    "bubble that touches a face": (
+        CUBE - Sphere((0, 0, 0.5), 0.5, name="bubble"),
+        8 - pi / 6,
+        2,
+    ),
+    "two balls": (
+        Sphere((0, 0, 0), 1, name="one") | Sphere((2, 0, 0), 1, name="two"),
+        8 / 3 * pi,
+        2,
+    ),
+    "cubes that share an edge": (CUBE | Block((1, 1, -1), (2, 2, 2), name="other"), 16, 2),
+    "cubes that share a corner": (CUBE | Block((1, 1, 1), (2, 2, 2), name="other"), 16, 2),
+    "cone on its tip": (
+        CUBE | Cone((0, 0, 1), 0, (0, 0, 2), 0.5, name="top"),
+        8 + pi / 12,
+        2,
+    ),
+    "hourglass": (
+        Cone((0, 0, -1), 1, (0, 0, 0)) | Cone((0, 0, 0), 0, (0, 0, 1), 1),
+        2 / 3 * pi,
+        2,
+    ),
+    "parallel cylinders that touch": (
+        Cylinder((0, 0, 0), (0, 0, 1), 1, name="one")
+        | Cylinder((2, 0, 0), (2, 0, 1), 1, name="two"),
+        2 * pi,
+        2,
+    ),
+    "ring on a table": (
+        Block((-4, -4, -2), (8, 8, 1)) | Torus((0, 0, 0), (0, 0, 1), 2, 1),
+        64 + 4 * pi**2,
+        1,
+    ),
+    "ball with a bore through its equator": (
+        Sphere((0, 0, 0), 2) - InfiniteCylinder((1, 0, 0), (0, 0, 1), 1),
+        32 / 3 * pi - 9.644049708034453,
+        1,
+    ),
+    "three cubes around an edge": (
+        Block((0, 0, 0), (1, 1, 1)) | Block((1, 1, 0), (1, 1, 1)) | Block((1, 1, 1), (1, 1, 1)),
+        3,
+        2,
+    ),
 }
+"""Solids that touch themselves, with their volume, and the Euler characteristic of their inside."""
 
 
 @pytest.mark.parametrize("name", RESOLVED)
@@ -145,17 +188,59 @@ def test_degenerate_positions_are_resolved(name: str) -> None:
     assert len(region.edges) == edges
 
 
-@pytest.mark.parametrize("name", REFUSED)
-def test_solids_that_touch_themselves_are_refused(name: str) -> None:
-    with pytest.raises(ContactError, match="touch"):
-        only(REFUSED[name])
+@pytest.mark.parametrize("name", TOUCHING)
+def test_solids_that_touch_themselves_have_a_boundary(name: str) -> None:
+    solid, volume, euler = TOUCHING[name]
+    region = only(solid)
+    assert region.volume == pytest.approx(volume, rel=1e-11)
+    assert region.euler == euler
+    assert region.touches
+    assert all("touches itself" in said for said in region.touches)
 
 
-def test_a_contact_error_names_the_faces_and_the_place() -> None:
+@pytest.mark.parametrize("name", TOUCHING)
+def test_they_have_no_skeleton(name: str) -> None:
+    geometry = Geometry(TOUCHING[name][0])
     with pytest.raises(ContactError) as caught:
-        only(REFUSED["bore tangent to a face"])
+        skeleton(geometry)
+    assert str(caught.value) == geometry.regions[0].touches[0]
+
+
+def test_points_beside_a_contact_are_asked() -> None:
+    """Above, below and beside the line in which a bore touches the top of a cube."""
+    geometry = Geometry(TOUCHING["bore tangent to a face"][0])
+    points = [(0.0, 0.4, 0.95), (0.0, -0.4, 0.95), (0.0, 0.0, 0.5), (0.0, 0.01, 1.01)]
+    assert geometry.region_of(points).tolist() == [0, 0, -1, -1]
+    near = geometry.nearest(points)
+    assert near.distance.tolist() == pytest.approx([0.05, 0.05, 0.5, 0.01], rel=1e-12)
+
+
+def test_a_contact_names_the_faces_and_the_place() -> None:
+    said = only(TOUCHING["bore tangent to a face"][0]).touches[0]
     for part in ("bore.side", "cube.zmax", "near (", "1)"):
-        assert part in str(caught.value)
+        assert part in said
+
+
+def test_info_tells_of_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "kiss.geo"
+    path.write_text(
+        "algebraic3d\nsolid kiss = sphere (0,0,0; 1) or sphere (2,0,0; 1);\ntlo kiss;\n"
+    )
+    assert main(["info", str(path)]) == 0
+    assert "no skeleton: region 'kiss' touches itself at the point (1, 0, 0)" in (
+        capsys.readouterr().out
+    )
+    assert main(["info", str(path), "--json"]) == 0
+    (said,) = json.loads(capsys.readouterr().out)["regions"][0]["touches"]
+    assert "touches itself" in said
+
+
+def test_tangent_carriers_are_known() -> None:
+    for name, kinds in (("two balls", ["sphere"] * 2), ("log on a table", ["cylinder", "plane"])):
+        geometry = Geometry(TOUCHING[name][0])
+        carriers = geometry.regions[0].carriers
+        (pair,) = geometry.boundaries.tangent
+        assert sorted(carriers[k].kind for k in pair) == kinds
 
 
 def test_touching_regions_are_no_overlap() -> None:

@@ -28,6 +28,7 @@ def assembled(
     member: Member,
     edges: Sequence[RawEdge],
     points: Array,
+    parts: Sequence[int],
     sets: Sequence[LoopSet],
     raw: Sequence[RawFace],
     reach: float,
@@ -39,6 +40,7 @@ def assembled(
         member: the region.
         edges: of it.
         points: (n, 3) its vertices.
+        parts: how many parts of it meet at each; more than one where it touches itself.
         sets: the loops of the edges on each carrier's sides.
         raw: faces.
         reach: radius about the form's centre within which the region lies.
@@ -92,7 +94,7 @@ def assembled(
         area,
         sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
         region_bounds(form, member, raw, finished, vertices),
-        _euler(form, member, edges, points, raw),
+        _euler(form, member, edges, sum(parts), raw),
     )
 
 
@@ -194,11 +196,14 @@ def _euler(
     form: HalfSpaceForm,
     member: Member,
     edges: Sequence[RawEdge],
-    points: Array,
+    vertices: int,
     raw: Sequence[RawFace],
 ) -> int:
-    """Half the Euler characteristic of the boundary, which is that of the solid."""
-    total = len(points) - sum(edge.ends is not None for edge in edges)
+    """Half the Euler characteristic of the boundary, which is that of the solid.
+
+    Where it touches itself it counts as parted: a vertex is as many as parts of it meet there.
+    """
+    total = vertices - sum(edge.ends is not None for edge in edges)
     for face in raw:
         handles = 0
         carrier = form.carriers[face.carrier]

@@ -13,10 +13,10 @@ from decomp.boundary.arcs import Arrangement, arrange
 from decomp.boundary.assembled import assembled
 from decomp.boundary.edges import RawEdge, raw_edges
 from decomp.boundary.faces import RawFace, face_at, raw_faces
-from decomp.boundary.loops import LoopSet, loop_sets
+from decomp.boundary.loops import LoopSet, loop_sets, touches_at
 from decomp.boundary.member import Member
 from decomp.boundary.topology import RegionBoundary
-from decomp.boundary.touching import touching_regions
+from decomp.boundary.touching import tangent_carriers, touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import EMPTY, Model, without_empty
@@ -68,6 +68,12 @@ class Boundaries:
         whole = [face for s in self._sources for face in s.faces if not face.loops]
         return touching_regions(self.form, self._sources[0].stars, whole)
 
+    @cached_property
+    def tangent(self) -> frozenset[frozenset[int]]:
+        """Pairs of carriers that are tangent to each other along a curve or at a point."""
+        source = self._sources[0]
+        return tangent_carriers(source.stars, source.arrangement.contacts)
+
     def face_at(self, region: int, carrier: int, points: Array) -> Ints:
         """Indices (n,) of a region's faces that hold points (n, 3) of a carrier, else -1.
 
@@ -111,7 +117,8 @@ def boundaries(model: Model) -> Boundaries:
         EmptyRegionError: no region has an interior.
         UnboundedRegionError: a region reaches infinity; names the direction.
         OverlapError: two regions share interior points.
-        ContactError: a region touches itself along a curve or at a point.
+        ContactError: carriers touch in a way that is not resolved. Where a region touches itself
+            its boundary says so (`RegionBoundary.touches`).
     """
     try:
         form = half_space_form(model)
@@ -171,15 +178,18 @@ def _reach(form: HalfSpaceForm) -> float:
 
 def _build(arrangement: Arrangement, surroundings: list[Star], member: Member) -> _Source:
     form = member.form
-    edges, points = raw_edges(arrangement, surroundings, member)
+    edges, points, touches = raw_edges(arrangement, surroundings, member)
     checks.refuse_unbounded(arrangement, member)
-    sets = loop_sets(edges, points, member)
+    sets, umbrellas = loop_sets(edges, points, member)
+    touches += touches_at(edges, points, member, umbrellas)
     faces = raw_faces(edges, sets, member, arrangement.radius)
     if not faces:
         raise EmptyRegionError(f"region {member.name!r} is {EMPTY}")
-    for contact in arrangement.contacts:
-        checks.refuse_point_contact(arrangement, contact, member)
-    boundary = assembled(form, member, edges, points, sets, faces, arrangement.radius)
+    tangent = (checks.touch_between(arrangement, each, member) for each in arrangement.contacts)
+    touches += [said for said in tangent if said is not None]
+    parts = [len(around) for around in umbrellas]
+    boundary = assembled(form, member, edges, points, parts, sets, faces, arrangement.radius)
+    boundary = replace(boundary, touches=tuple(touches))
     return _Source(arrangement, surroundings, member, edges, sets, faces, boundary)
 
 

@@ -1,4 +1,4 @@
-"""What must hold before a boundary is handed out: bounded, disjoint, manifold regions."""
+"""What must hold before a boundary is handed out: bounded, disjoint regions; where these touch."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from decomp.boundary.member import Member
 from decomp.boundary.wedges import Star
 from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.errors import ContactError, OverlapError, UnboundedRegionError
+from decomp.errors import OverlapError, UnboundedRegionError
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, cross, norm, perpendicular, place
 
@@ -118,8 +118,8 @@ def _raise_overlap(form: HalfSpaceForm, filled: Array, point: Array) -> None:
     )
 
 
-def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Member) -> None:
-    """Raise ContactError if the region's boundary touches itself at an isolated point.
+def touch_between(arrangement: Arrangement, contact: Contact, member: Member) -> str | None:
+    """Says that a region's boundary touches itself at an isolated point; None if it does not.
 
     Two carriers that touch leave three layers along their common normal: below both, between
     them all around the point, above both. The region is pinched when it fills only the middle
@@ -130,12 +130,13 @@ def refuse_point_contact(arrangement: Arrangement, contact: Contact, member: Mem
     inside = np.repeat((form.signed_distances(point) < 0)[None, :], 3, axis=0)
     inside[:, (i, j)] = _layers(form.carriers[i], form.carriers[j], point, form.scale)
     below, between, beyond = member.holds(inside)
-    if below == beyond != between:
-        raise ContactError(
-            f"region {member.name!r} touches itself at the point {place(point)}, where "
-            f"{form.carrier_name(i)} and {form.carrier_name(j)} are tangent: leave a gap or let "
-            "the parts overlap"
-        )
+    if not below == beyond != between:
+        return None
+    return (
+        f"region {member.name!r} touches itself at the point {place(point)}, where "
+        f"{form.carrier_name(i)} and {form.carrier_name(j)} are tangent: leave a gap or let "
+        "the parts overlap"
+    )
 
 
 def _layers(a: Carrier, b: Carrier, point: Array, scale: float) -> Bools:

@@ -14,8 +14,8 @@ from decomp.boundary.points import PointTable
 from decomp.boundary.topology import Convexity
 from decomp.boundary.wedges import SAME_DIRECTION, HalfSheet, Star
 from decomp.curves.base import Curve
-from decomp.errors import ContactError, UnboundedRegionError
-from decomp.vectors import Array, norm, place
+from decomp.errors import UnboundedRegionError
+from decomp.vectors import Array, Bools, Ints, norm, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,20 +95,25 @@ class RawEdge:
 
 def raw_edges(
     arrangement: Arrangement, stars: Sequence[Star], member: Member
-) -> tuple[list[RawEdge], Array]:
-    """Find a region's edges and the points (n, 3) where they end.
+) -> tuple[list[RawEdge], Array, list[str]]:
+    """Find a region's edges, the points (n, 3) where they end, and where more than two faces meet.
+
+    Where a region touches itself along an arc each of its parts there has an edge of its own.
 
     Raises:
-        ContactError: more than two faces meet along an arc.
         UnboundedRegionError: an edge runs out of every window.
     """
     table = PointTable(10 * arrangement.form.tolerance)
     pieces: list[RawEdge] = []
+    touches: list[str] = []
     for star in stars:
-        flanks_and_shape = _flanks(arrangement, star, member)
-        if flanks_and_shape is None:
+        after = member.selected(star.filled)
+        changing = np.flatnonzero(after != np.roll(after, 1))
+        if len(changing) > 2:
+            touches.append(_touch(arrangement, star, changing, member))
+        around = _flanks(star, after, changing)
+        if not around:
             continue
-        flanks, convexity = flanks_and_shape
         arc = arrangement.arcs[star.arc]
         curve = arrangement.curves[arc.curve]
         ends = None
@@ -118,39 +123,46 @@ def raw_edges(
                 if arrangement.leaves_window(tip):
                     raise UnboundedRegionError(_unbounded(arrangement, member, tip))
             ends = (table.add(tips[0]), table.add(tips[1]))
-        pieces.append(
+        pieces += [
             RawEdge(curve, arc.curve, arc.start, arc.end, ends, flanks, convexity, star.point)
-        )
-    return _joined(pieces, table.points())
+            for flanks, convexity in around
+        ]
+    return *_joined(pieces, table.points()), touches
 
 
 def _flanks(
-    arrangement: Arrangement, star: Star, member: Member
-) -> tuple[tuple[Flank, Flank], Convexity] | None:
-    """The two faces that meet at an arc and how; None where there is no edge."""
-    after = member.selected(star.filled)
-    before = np.roll(after, 1)
-    changing = np.flatnonzero(after != before)
-    if not len(changing):
-        return None
-    sheets = [star.sheets[k] for k in changing]
-    carriers = [sheet.carrier for sheet in sheets]
-    if len(sheets) == 2 and carriers[0] == carriers[1]:
-        return None
-    if len(sheets) > 2:
-        names = sorted({arrangement.form.carrier_name(c) for c in carriers})
-        raise ContactError(
-            f"region {member.name!r}: {len(sheets)} faces meet along one edge, on "
-            f"{', '.join(names)}, near {place(star.point)}; the region touches itself there: "
-            "leave a gap or let the parts overlap"
-        )
-    opens = 0 if after[changing[0]] else 1  # the half-sheet behind which the region begins
-    angle = _interior_angle(sheets[opens], sheets[1 - opens], opens == 0)
-    flanks = (
-        _flank(sheets[0], bool(after[changing[0]])),
-        _flank(sheets[1], bool(after[changing[1]])),
+    star: Star, after: Bools, changing: Ints
+) -> list[tuple[tuple[Flank, Flank], Convexity]]:
+    """The two faces of each part of a region that meet at an arc, and how.
+
+    There is no edge where a part ends in both halves of one carrier.
+
+    Args:
+        star: the arc's.
+        after: (m,) whether the region fills the wedge after each half-sheet.
+        changing: the half-sheets at which that changes.
+    """
+    found = []
+    for row, opens in enumerate(changing.tolist()):
+        closes = int(changing[(row + 1) % len(changing)])
+        first, last = star.sheets[opens], star.sheets[closes]
+        if after[opens] and first.carrier != last.carrier:
+            shape = _convexity(_interior_angle(first, last, opens < closes))
+            ordered = sorted((opens, closes))
+            one, two = (_flank(star.sheets[k], bool(after[k])) for k in ordered)
+            found.append(((one, two), shape))
+    return found
+
+
+def _touch(arrangement: Arrangement, star: Star, changing: Ints, member: Member) -> str:
+    """Says that a region touches itself along an arc."""
+    carriers = {star.sheets[k].carrier for k in changing.tolist()}
+    names = sorted({arrangement.form.carrier_name(c) for c in carriers})
+    return (
+        f"region {member.name!r}: {len(changing)} faces meet along one edge, on "
+        f"{', '.join(names)}, near {place(star.point)}; the region touches itself there: "
+        "leave a gap or let the parts overlap"
     )
-    return flanks, _convexity(angle)
 
 
 def _interior_angle(first: HalfSheet, last: HalfSheet, in_order: bool) -> float:
@@ -184,11 +196,17 @@ def _joined(pieces: list[RawEdge], points: Array) -> tuple[list[RawEdge], Array]
         for end in piece.ends or ():
             at_point[end].append(index)
     follower: dict[int, int] = {}
-    for incident in at_point.values():
-        if len(incident) == 2:
-            for a, b in (incident, incident[::-1]):
-                if _continues(pieces[a], pieces[b]):
-                    follower[a] = b
+    for point, incident in at_point.items():
+        # where a region touches itself along two arcs several pieces run along each
+        arcs = {(pieces[k].curve_index, pieces[k].start) for k in incident}
+        pairs = [
+            (a, b)
+            for a in sorted(set(incident))
+            for b in sorted(set(incident))
+            if _continues(pieces[a], pieces[b], point)
+        ]
+        if len(arcs) <= 2 and 2 * len(pairs) == len(incident):
+            follower.update(pairs)
     followed = set(follower.values())
     result: list[RawEdge] = []
     done: set[int] = set()
@@ -212,8 +230,8 @@ def _joined(pieces: list[RawEdge], points: Array) -> tuple[list[RawEdge], Array]
     return renumbered, points[used]
 
 
-def _continues(a: RawEdge, b: RawEdge) -> bool:
-    """Whether b takes up where a ends, with the same faces."""
+def _continues(a: RawEdge, b: RawEdge, point: int) -> bool:
+    """Whether b takes up where a ends, at a point, with the same faces."""
     if a.curve_index != b.curve_index or a.ends is None or b.ends is None:
         return False
     low, high = a.curve.domain
@@ -222,7 +240,7 @@ def _continues(a: RawEdge, b: RawEdge) -> bool:
     sides_a = {(f.carrier, f.outward, f.leftward) for f in a.flanks}
     sides_b = {(f.carrier, f.outward, f.leftward) for f in b.flanks}
     return (
-        a.ends[1] == b.ends[0]
+        a.ends[1] == point == b.ends[0]
         and min(gap, abs(gap - period)) <= 1e-9 * (high - low)
         and sides_a == sides_b
         and a.convexity == b.convexity

@@ -13,6 +13,7 @@ from decomp.boundary.member import Member
 from decomp.boundary.rays import Walker
 from decomp.boundary.torus_loops import Winding, encloses_nothing, winding
 from decomp.carriers import Carrier, Sphere, Torus
+from decomp.curves.base import Curve
 from decomp.errors import ContactError
 from decomp.vectors import Array, Ints, norm, place
 
@@ -152,14 +153,20 @@ def _reached_from(walker: Walker, carrier: Carrier, loop: Sequence[HalfEdge]) ->
     so the rays from all holes lead on to the face's one outer loop.
     """
     # without the vertices, where another face of the same carrier may touch
-    samples = np.concatenate([walker.edges[half.edge].sampled(67)[1:-1] for half in loop])
+    parts = [walker.edges[half.edge].sampled(67)[1:-1] for half in loop]
+    samples = np.concatenate(parts)
+    owner = [half for half, part in zip(loop, parts, strict=True) for _ in part]
+    rays: Iterator[tuple[HalfEdge, Curve]]
     if isinstance(carrier, Torus):
-        starts = samples[:: max(1, len(samples) // RAYS_PER_LOOP)]
-        rays = (ray for start in starts for ray in walker.around_torus(start))
+        rows = range(0, len(samples), max(1, len(samples) // RAYS_PER_LOOP))
+        rays = ((owner[k], ray) for k in rows for ray in walker.around_torus(samples[k]))
     else:
-        upward = walker.upward(samples[int(np.argmax(walker.height(samples)))])
-        rays = (ray for ray in (upward,) if ray is not None)
-    for ray in rays:
+        highest = int(np.argmax(walker.height(samples)))
+        upward = walker.upward(samples[highest])
+        rays = ((owner[highest], ray) for ray in (upward,) if ray is not None)
+    for half, ray in rays:
+        if not walker.may_enter(half, ray):
+            continue
         reached = walker.first_loop(ray, from_edge=True)
         if reached is not None:
             yield reached

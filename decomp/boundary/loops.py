@@ -14,6 +14,9 @@ from decomp.carriers import Carrier, Cone
 from decomp.errors import ContactError
 from decomp.vectors import Array, frame, norm, place
 
+SAME_RAY = 1e-12
+"""Two edges along one arc leave a vertex at angles that differ by less."""
+
 
 @dataclass(frozen=True)
 class HalfEdge:
@@ -41,11 +44,21 @@ class LoopSet:
     loops: tuple[tuple[HalfEdge, ...], ...]
 
 
-def loop_sets(edges: Sequence[RawEdge], points: Array, member: Member) -> list[LoopSet]:
+Umbrellas = tuple[frozenset[tuple[int, bool]], ...]
+"""Edge ends (edge, whether it starts there) at a vertex, those together that one comes by from face
+to face over the edges. A region with several of them at a vertex touches itself there."""
+
+
+def loop_sets(
+    edges: Sequence[RawEdge], points: Array, member: Member
+) -> tuple[list[LoopSet], list[Umbrellas]]:
     """Chain edges into loops, for each carrier and each of its sides.
 
+    Returns:
+        the loops, and the umbrellas at each of the points.
+
     Raises:
-        ContactError: edges do not close, or the region touches itself at a vertex.
+        ContactError: edges do not close.
     """
     groups: dict[tuple[int, int], list[HalfEdge]] = defaultdict(list)
     for index, edge in enumerate(edges):
@@ -58,8 +71,7 @@ def loop_sets(edges: Sequence[RawEdge], points: Array, member: Member) -> list[L
         links = linker.link(halves)
         following.update({(carrier, outward, a): b for a, b in links.items()})
         result.append(LoopSet(carrier, outward, _cycles(halves, links)))
-    _refuse_pinched_vertices(edges, points, member, following)
-    return result
+    return result, _umbrellas(edges, len(points), following)
 
 
 class _Linker:
@@ -101,7 +113,10 @@ class _Linker:
     def _linked_by_angle(
         self, vertex: int, into: list[HalfEdge], out: list[HalfEdge]
     ) -> dict[HalfEdge, HalfEdge]:
-        """Each arriving half-edge goes on along the next ray clockwise, keeping its face left."""
+        """Each arriving half-edge goes on along the next ray clockwise, keeping its face left.
+
+        The last one is the way that it came, where the region touches itself along it.
+        """
         point = self._points[vertex]
         x, y = frame(self._outward * _normal(self._carrier, point))
         reach = 1e-3 * min(_chord(self._edges[half.edge]) for half in (*into, *out))
@@ -114,7 +129,10 @@ class _Linker:
         links: dict[HalfEdge, HalfEdge] = {}
         for half in into:
             back = angle(half, half.direction < 0)
-            turns = [((back - ray) % (2 * np.pi), index) for index, (ray, _) in enumerate(rays)]
+            turns = [
+                ((back - ray - SAME_RAY) % (2 * np.pi), index)
+                for index, (ray, _) in enumerate(rays)
+            ]
             links[half] = rays[min(turns)[1]][1]
         # two that go on along one edge would leave the loops of the others open for ever
         if len(set(links.values())) < len(links):
@@ -146,39 +164,61 @@ def _cycles(
     return tuple(loops)
 
 
-def _refuse_pinched_vertices(
-    edges: Sequence[RawEdge],
-    points: Array,
-    member: Member,
-    following: dict[tuple[int, int, HalfEdge], HalfEdge],
-) -> None:
-    """Around a manifold vertex, going from face to face over the edges visits every edge end."""
-    visits: dict[int, set[tuple[int, bool]]] = defaultdict(set)
-    for index, edge in enumerate(edges):
-        if edge.ends is not None:
-            visits[edge.ends[0]].add((index, True))
-            visits[edge.ends[1]].add((index, False))
-    for vertex, tips in visits.items():
-        first = min(tips)
-        seen = {first}
-        index, at_start = first
-        flank = _arriving(edges[index], at_start)
-        while True:
-            half = HalfEdge(index, -1 if at_start else 1)
-            onward = following[flank.carrier, flank.outward, half]
-            index, at_start = onward.edge, onward.direction > 0
-            if (index, at_start) in seen:
-                break
-            seen.add((index, at_start))
-            flank = _arriving(edges[index], at_start)
-        if seen != tips:
-            names = sorted(
-                {member.form.carrier_name(f.carrier) for i, _ in tips for f in edges[i].flanks}
-            )
-            raise ContactError(
-                f"region {member.name!r} touches itself at the point {place(points[vertex])}, "
+def touches_at(
+    edges: Sequence[RawEdge], points: Array, member: Member, umbrellas: Sequence[Umbrellas]
+) -> list[str]:
+    """Says at which vertices a region touches itself."""
+    found = []
+    for point, around in zip(points, umbrellas, strict=True):
+        if len(around) > 1:
+            carriers = {f.carrier for own in around for i, _ in own for f in edges[i].flanks}
+            names = sorted({member.form.carrier_name(k) for k in carriers})
+            found.append(
+                f"region {member.name!r} touches itself at the point {place(point)}, "
                 f"where {', '.join(names)} meet: leave a gap or let the parts overlap"
             )
+    return found
+
+
+def _umbrellas(
+    edges: Sequence[RawEdge],
+    count: int,
+    following: dict[tuple[int, int, HalfEdge], HalfEdge],
+) -> list[Umbrellas]:
+    """The umbrellas at each of so many points."""
+    tips: list[set[tuple[int, bool]]] = [set() for _ in range(count)]
+    for index, edge in enumerate(edges):
+        if edge.ends is not None:
+            tips[edge.ends[0]].add((index, True))
+            tips[edge.ends[1]].add((index, False))
+    found: list[Umbrellas] = []
+    for left in tips:
+        around = []
+        while left:
+            own = _umbrella(edges, min(left), following)
+            around.append(own)
+            left -= own
+        found.append(tuple(around))
+    return found
+
+
+def _umbrella(
+    edges: Sequence[RawEdge],
+    first: tuple[int, bool],
+    following: dict[tuple[int, int, HalfEdge], HalfEdge],
+) -> frozenset[tuple[int, bool]]:
+    """The edge ends that one comes by from face to face over the edges, from a first one on."""
+    seen = {first}
+    index, at_start = first
+    flank = _arriving(edges[index], at_start)
+    while True:
+        half = HalfEdge(index, -1 if at_start else 1)
+        onward = following[flank.carrier, flank.outward, half]
+        index, at_start = onward.edge, onward.direction > 0
+        if (index, at_start) in seen:
+            return frozenset(seen)
+        seen.add((index, at_start))
+        flank = _arriving(edges[index], at_start)
 
 
 def _arriving(edge: RawEdge, at_start: bool) -> Flank:

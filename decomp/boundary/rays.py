@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from decomp.boundary.edges import RawEdge
-from decomp.boundary.loops import LoopSet
+from decomp.boundary.loops import HalfEdge, LoopSet
 from decomp.boundary.member import Member
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
@@ -235,7 +235,7 @@ class Walker:
             return None
         for (t, k), middle in zip(cuts, middles[1:], strict=True):
             if not self.on_face(middle):
-                return self._loop_at(ray.point(np.array(t)), k)
+                return self._loop_at(ray, t, k)
         return None
 
     def _cuts(self, ray: Curve) -> list[tuple[float, int]]:
@@ -254,11 +254,37 @@ class Walker:
             for t in crossings(ray, form.carriers[k], form.tolerance).parameters
         ]
 
-    def _loop_at(self, point: Array, carrier: int) -> int | None:
-        for index in self._edges_on.get(carrier, ()):
-            if self.edges[index].holds(point, 100 * self.member.form.tolerance):
-                return self.loop_of_edge[index][0]
-        return None
+    def _loop_at(self, ray: Curve, t: float, carrier: int) -> int | None:
+        """The loop that a ray meets where it leaves a face and meets another carrier."""
+        point = ray.point(np.array(t))
+        slack = 100 * self.member.form.tolerance
+        held = [k for k in self._edges_on.get(carrier, ()) if self.edges[k].holds(point, slack)]
+        if len(held) > 1:
+            # the region touches itself along them: the face that the ray leaves is behind it
+            held.sort(key=lambda k: self._face_side(k, point) @ ray.derivative(np.array(t)))
+        return self.loop_of_edge[held[0]][0] if held else None
+
+    def may_enter(self, half: HalfEdge, ray: Curve) -> bool:
+        """Whether a ray from a point of an edge may lead into the face left of a half-edge.
+
+        Where the region touches itself along the edge, there is another face on the other side.
+        """
+        edge = self.edges[half.edge]
+        arc = edge.curve_index, edge.start
+        others = (k for k in self.loop_of_edge if k != half.edge)
+        if all((self.edges[k].curve_index, self.edges[k].start) != arc for k in others):
+            return True
+        low = np.array(ray.domain[0])
+        side = self._face_side(half.edge, ray.point(low))
+        return float(side @ ray.derivative(low)) > 0
+
+    def _face_side(self, index: int, point: Array) -> Array:
+        """The direction from a point of an edge into the face on this carrier."""
+        edge = self.edges[index]
+        flank = next(f for f in edge.flanks if f.carrier == self.loops.carrier)
+        along = edge.curve.derivative(edge.curve.parameter(point))
+        left = cross(self.member.form.carriers[flank.carrier].normal(point), along / norm(along))
+        return np.asarray(left if flank.leftward else -left)
 
     def _edge_points(self) -> Array:
         return np.concatenate([self.edges[e].sampled(33) for e in self.loop_of_edge])

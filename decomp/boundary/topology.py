@@ -128,7 +128,10 @@ class RegionBoundary:
         area: of all faces.
         area_error: estimated error of `area`.
         bounds: corners (2, 3) of the axis-parallel box around the boundary.
-        euler: Euler characteristic of the region as a solid.
+        euler: Euler characteristic of the region as a solid, without the points where it touches
+            itself.
+        touches: says where it touches itself and what to do about it, once for each place. Such a
+            region can be measured, asked and meshed, but has no skeleton.
     """
 
     name: str
@@ -142,6 +145,7 @@ class RegionBoundary:
     area_error: float
     bounds: Array
     euler: int
+    touches: tuple[str, ...] = ()
 
     @property
     def diagonal(self) -> float:

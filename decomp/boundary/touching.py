@@ -1,13 +1,15 @@
-"""Which regions of a model touch each other along a surface."""
+"""Which regions of a model touch each other along a surface, and which carriers are tangent."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 import numpy as np
 
+from decomp.boundary.arcs import Contact
 from decomp.boundary.faces import RawFace
-from decomp.boundary.wedges import Star
+from decomp.boundary.wedges import SAME_DIRECTION, Star
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.vectors import Bools
 
@@ -34,6 +36,24 @@ def touching_regions(
         filled = form.program.evaluate(inside)
         found.update(_pairs(filled[:1], filled[1:]))
     return tuple(sorted(found))
+
+
+def tangent_carriers(
+    stars: Sequence[Star], contacts: Iterable[Contact]
+) -> frozenset[frozenset[int]]:
+    """Pairs of carriers that are tangent to each other along an arc or at a point.
+
+    Args:
+        stars: the surroundings of all arcs.
+        contacts: points at which carriers are tangent.
+    """
+    found = {frozenset(contact.carriers) for contact in contacts}
+    for star in stars:
+        for one, two in pairwise((*star.sheets, star.sheets[0])):
+            turn = abs((two.angle - one.angle + np.pi) % (2 * np.pi) - np.pi)
+            if one.carrier != two.carrier and turn <= SAME_DIRECTION:
+                found.add(frozenset((one.carrier, two.carrier)))
+    return frozenset(found)
 
 
 def _pairs(here: Bools, there: Bools) -> Iterable[tuple[int, int]]:

@@ -72,6 +72,7 @@ def _region_json(region: RegionBoundary, options: Mapping[str, Any]) -> dict[str
         "area_error": region.area_error,
         "bbox": region.bounds.tolist(),
         "euler": region.euler,
+        "touches": list(region.touches),
         "faces": [
             {
                 "name": face.name,
@@ -138,6 +139,7 @@ def _region_text(region: RegionBoundary, options: Mapping[str, Any]) -> list[str
     kinds = Counter(("", v.convexity.value) for v in region.vertices)
     plural = "vertex" if len(region.vertices) == 1 else "vertices"
     lines.append(f"  {len(region.vertices)} {plural}{_shapes(kinds)}")
+    lines += [f"  no skeleton: {said}" for said in region.touches]
     return lines
 
 

@@ -24,6 +24,7 @@ examples:
   decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
   decomp mesh part.geo --volumes regions --no-sheets
                                                 one volume per region, no inner surfaces
+  decomp mesh part.geo --cells none             no skeleton: faces, interfaces and regions alone
   decomp mesh *.geo -o meshes --jobs 2          many models, two at a time, with a table
   decomp mesh part.geo --report part.json       figures for programs too
 """
@@ -99,15 +100,16 @@ def _tag_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("physical groups")
     group.add_argument(
         "--cells",
-        choices=("skeleton", "face"),
+        choices=("skeleton", "face", "none"),
         default="skeleton",
-        help="skeleton: what the skeleton alone bounds (default); face: one cell for each face",
+        help="skeleton: what the skeleton alone bounds (default); face: one cell for each face; "
+        "none: regions, faces and interfaces alone, which needs no skeleton",
     )
     group.add_argument(
         "--volumes",
         choices=("cells", "regions"),
         default="cells",
-        help="one volume for each cell (default) or for each region",
+        help="one volume for each cell (default) or for each region; without cells for each region",
     )
     group.add_argument(
         "--no-sheets", dest="sheets", action="store_false", help="tag no triangles between cells"
@@ -164,7 +166,7 @@ def run(options: argparse.Namespace) -> None:
     options.model = options.models[0]
     outputs = options.output or [_default(options.model)]
     suffixes = {suffix_of(path) for path in outputs}
-    checked_fields(options.fields)
+    checked_fields(options.fields, with_cells=options.cells != "none")
     if options.fields and not suffixes & {".msh", ".vtu"}:
         raise InputError("--fields are written into .msh and .vtu files; give one with -o")
     more = ((options.report, ".json", "reports"), (options.html, ".html", "pages"))

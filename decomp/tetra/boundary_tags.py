@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from decomp.certificate.distance import TriangleTree, triangle_distance, triangle_tree
 from decomp.geometry import Geometry
 from decomp.tetra.cells import OUTSIDE, CellMap, locate
 from decomp.tetra.layout import Layout
@@ -37,20 +40,43 @@ class BoundaryTags:
     ) -> None:
         self._geometry, self._surface, self._cells = geometry, surface, cells
         self._plan, self._epsilon = plan, epsilon
+        self._trees: dict[int, TriangleTree] = {}
 
     def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
-        """The patches of triangles that bound regions[:, 0]."""
+        """The patches of triangles that bound regions[:, 0].
+
+        A face may have several patches with one region on their other side: it is the nearest.
+        """
         faces = self._faces(points, triangles, regions[:, 0])
-        known: dict[tuple[int, int, int], int] = {}
+        known: dict[tuple[int, int, int], list[int]] = {}
         for number, own in enumerate(self._plan.sides):
             for region, face in own:
                 other = next((r for r, _ in own if r != region), OUTSIDE)
-                known.setdefault((region, face, other), number)
-                known.setdefault((region, face, ANY), number)
+                known.setdefault((region, face, other), []).append(number)
+                known.setdefault((region, face, ANY), []).append(number)
         keys = np.stack([regions[:, 0], faces, regions[:, 1]], axis=1)
         unique, which = np.unique(keys, axis=0, return_inverse=True)
-        found = [known.get((r, f, other), known[r, f, ANY]) for r, f, other in unique.tolist()]
-        return np.array(found, dtype=np.int64)[which.reshape(-1)]
+        found = np.empty(len(triangles), dtype=np.int64)
+        for number, (r, f, other) in enumerate(unique.tolist()):
+            rows = np.flatnonzero(which.reshape(-1) == number)
+            candidates = known.get((r, f, other), known[r, f, ANY])
+            found[rows] = self._nearest(points[triangles[rows]], candidates)
+        return found
+
+    def _nearest(self, corners: Array, candidates: Sequence[int]) -> Ints:
+        """The nearest of some patches to the middles of triangles, given by their corners."""
+        if len(candidates) == 1:
+            return np.full(len(corners), candidates[0], dtype=np.int64)
+        middles = corners.mean(axis=1)
+        away = np.stack([triangle_distance(self._tree(k), middles) for k in candidates])
+        return np.asarray(np.array(candidates)[away.argmin(axis=0)])
+
+    def _tree(self, patch: int) -> TriangleTree:
+        """The triangles of a patch; made once."""
+        if patch not in self._trees:
+            mesh = self._plan.complex
+            self._trees[patch] = triangle_tree(mesh.points[mesh.patches[patch].triangles])
+        return self._trees[patch]
 
     def _faces(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
         """The face of its region that each triangle lies on: nearest, and turned alike."""

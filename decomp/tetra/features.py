@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from decomp.boundary.topology import Convexity, RegionBoundary
-from decomp.complex.model import LineKind, Patch, SurfaceElement
 from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
-from decomp.tetra.cells import site_owners
+from decomp.tetra.ball_walls import ball_walls
 from decomp.tetra.layout import samples
+from decomp.tetra.sheet_walls import reflexive_walls, sheet_walls
 from decomp.tetra.surface import MeshSurface
+from decomp.tetra.wall import FACING, Wall
 from decomp.vectors import Array, Ints, dot, norm
 
-FACING = -0.5
-"""Feet face each other where the cosine between their directions is below this."""
 ALONG = 9
 """Angles are measured at so many points of an edge."""
 SAMPLED = 12.0
@@ -46,19 +44,25 @@ LEAST = 1e-5
 """Epsilon is at least this part of the model's diagonal."""
 
 
-def usual_epsilon(geometry: Geometry, length: float) -> float:
-    """Epsilon as far as it is known without the skeleton, for edges of a length."""
+def usual_epsilon(geometry: Geometry, length: float, cusp: float = 0.0) -> float:
+    """Epsilon as far as it is known without the skeleton, for edges of a length.
+
+    Angles below that of a cusp (degrees) do not count.
+    """
     smallest = min(region.diagonal for region in geometry.regions)
     epsilon = min(USUAL * smallest, OF_LENGTH * length)
-    sharpest = min(sharpest_angle(region) for region in geometry.regions) / 2
+    sharpest = min(sharpest_angle(region, cusp) for region in geometry.regions) / 2
     narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))
     epsilon *= min(1.0, float(narrow**2))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
     return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
 
 
-def sharpest_angle(boundary: RegionBoundary) -> float:
-    """The least interior angle (degrees) between two faces along a convex edge; 180 for none."""
+def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
+    """The least interior angle (degrees) between two faces along a convex edge; 180 for none.
+
+    Only angles of at least `cusp` count.
+    """
     least = 180.0
     for edge in boundary.edges:
         if edge.convexity is Convexity.CONVEX:
@@ -69,7 +73,7 @@ def sharpest_angle(boundary: RegionBoundary) -> float:
                 for face in edge.faces
             )
             angles = np.degrees(np.arccos(np.clip(-dot(one, two), -1, 1)))
-            least = min(least, float(angles.min()))
+            least = min(least, float(angles[angles >= cusp].min(initial=180.0)))
     return least
 
 
@@ -98,12 +102,12 @@ def fitting_epsilon(
 def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
     """Whether boundaries face each other across the outside, less than a width apart.
 
-    Faces that meet in an edge make a groove there, not a gap.
+    Faces that meet in an edge make a groove there, not a gap, and tangent ones a cusp.
     """
     mesh = surface.complex
     index = geometry.index
     edges = [edge for region in geometry.regions for edge in region.edges]
-    meeting = {frozenset(edge.carriers) for edge in edges}
+    meeting = {frozenset(edge.carriers) for edge in edges} | geometry.boundaries.tangent
     for region in surface.regions:
         boundary = region.boundary
         for face, sides in zip(boundary.faces, region.face_sides, strict=True):
@@ -130,19 +134,21 @@ def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
 def thickness(
     geometry: Geometry, surface: MeshSurface, number: int, largest: float
 ) -> tuple[Array, Array]:
-    """Points of the skeleton and their feet where the feet face each other, with thicknesses.
+    """Points of a region's walls, inside them and on both their sides, with thicknesses.
 
-    Sheets between faces that meet in an edge tell of the wedge there, not of a wall, and the tip of
-    a cone is a corner too: neither counts.
+    Args:
+        geometry: of the model.
+        surface: its boundary, and its skeleton if that is known.
+        number: of the region.
+        largest: length of its edges.
     """
-    mesh = surface.complex
     points, thick = [], []
-    for own in _walls(surface, number):
-        some, _ = samples(mesh.points, own.triangles, largest / 2)
-        across, wide = _facing(geometry, own.surface, number, some)
+    for wall in _walls(geometry, surface, number):
+        some, _ = samples(surface.complex.points, wall.triangles, largest / 2)
+        across, wide = wall.measured(some)
         points += list(across)
         thick += [wide] * len(across)
-    for ends, wide in _reflexive(geometry, surface, number):
+    for ends, wide in _curves(geometry, surface, number):
         points += list(ends)
         thick += [wide] * len(ends)
     return (
@@ -154,10 +160,10 @@ def thickness(
 def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> float:
     """The least local thickness of a region, infinite where no feet face each other."""
     length = surface.regions[number].boundary.diagonal / SAMPLED
-    least = [float(wide.min(initial=np.inf)) for _, wide in _reflexive(geometry, surface, number)]
+    least = [float(wide.min(initial=np.inf)) for _, wide in _curves(geometry, surface, number)]
     looks = [
-        (_looked(geometry, surface, own, number, own.triangles, length), own)
-        for own in _walls(surface, number)
+        (_looked(surface, own, own.triangles, length), own)
+        for own in _walls(geometry, surface, number)
     ]
     looks = sorted(looks, key=lambda each: each[0].thick)[:PROMISING]
     least += [look.thick for look, _ in looks]
@@ -166,21 +172,24 @@ def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> fl
             if not look.thick < CLOSE * min(least):
                 break
             apart, before = length / 4**zoom, look.thick
-            look = _looked(geometry, surface, own, number, look.triangles, apart, look)
+            look = _looked(surface, own, look.triangles, apart, look)
             least.append(look.thick)
             if look.thick > SETTLED * before:
                 break
     return min(least, default=np.inf)
 
 
-def _walls(surface: MeshSurface, number: int) -> Iterator[Patch]:
-    """The sheets of a region but for those between faces that meet in an edge."""
-    region = surface.regions[number]
-    owner = site_owners(surface.sites, [each.boundary for each in surface.regions])
-    meeting = {frozenset(edge.faces) for edge in region.boundary.edges}
-    for patch, sites in region.sheets.items():
-        if frozenset(owner[list(sites)].tolist()) not in meeting:
-            yield surface.complex.patches[patch]
+def _walls(geometry: Geometry, surface: MeshSurface, number: int) -> list[Wall]:
+    """What tells the thickness of a region: its sheets where they are known, else its faces."""
+    known = sheet_walls if surface.has_skeleton else ball_walls
+    return known(geometry, surface, number)
+
+
+def _curves(
+    geometry: Geometry, surface: MeshSurface, number: int
+) -> list[tuple[tuple[Array, Array], Array]]:
+    """What else does: reflexive curves, for balls on faces tell of these themselves."""
+    return reflexive_walls(geometry, surface, number) if surface.has_skeleton else []
 
 
 class _Look(NamedTuple):
@@ -192,52 +201,20 @@ class _Look(NamedTuple):
 
 
 def _looked(
-    geometry: Geometry,
     surface: MeshSurface,
-    own: Patch,
-    number: int,
+    own: Wall,
     triangles: Ints,
     length: float,
     before: _Look | None = None,
 ) -> _Look:
-    """Look at samples a length apart on triangles of a sheet, about the place of a coarser look."""
+    """Look at samples a length apart on triangles of a wall, about the place of a coarser look."""
     some, which = samples(surface.complex.points, triangles, length / 2)
     if before is not None:
         near = norm(some - before.middle) < 4 * length
         some, which = some[near], which[near]
-    (places, *_), wide = _facing(geometry, own.surface, number, some)
+    (places, *_), wide = own.measured(some)
     if not len(wide):
         return _Look(np.inf, np.zeros(3), triangles)
     middle = places[np.argmin(wide)]
     near = norm(some - middle) < length
     return _Look(float(wide.min()), middle, triangles[np.unique(which[near])])
-
-
-def _reflexive(
-    geometry: Geometry, surface: MeshSurface, number: int
-) -> Iterator[tuple[tuple[Array, Array], Array]]:
-    """Points (k, 3) of each reflexive curve of a region with their feet and thicknesses (k,)."""
-    for line in surface.complex.lines:
-        if line.kind is LineKind.REFLEXIVE:
-            some = surface.complex.points[line.vertices]
-            found = geometry.index.nearest(some)
-            rows = (found.region == number) & (found.distance > found.distance.max() / 2)
-            yield (some[rows], found.foot[rows]), 2 * found.distance[rows]
-
-
-def _facing(
-    geometry: Geometry, sheet: SurfaceElement, number: int, some: Array
-) -> tuple[tuple[Array, Array, Array], Array]:
-    """Points (k, 3) of a sheet among some (n, 3) at which feet face each other.
-
-    With their feet on both sides, and how far these are apart (k,).
-    """
-    some = sheet.place(np.unique(some, axis=0))  # triangles share their corners
-    way = sheet.normal(some) * (1e-6 * geometry.diagonal)
-    one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
-    good = (one.region == number) & (two.region == number) & (one.distance > 0)
-    good &= two.distance > 0
-    u = (one.foot - some) / np.maximum(one.distance, 1e-300)[:, None]
-    v = (two.foot - some) / np.maximum(two.distance, 1e-300)[:, None]
-    rows = good & (dot(u, v) < FACING)
-    return (some[rows], one.foot[rows], two.foot[rows]), np.asarray(2 * one.distance[rows])

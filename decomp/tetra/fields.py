@@ -34,11 +34,11 @@ INSIDE = 1e-5
 """Nodes nearer to the boundary than this part of the diagonal are asked from this far inside."""
 
 
-def checked_fields(names: Sequence[str]) -> tuple[str, ...]:
+def checked_fields(names: Sequence[str], with_cells: bool = True) -> tuple[str, ...]:
     """Names of fields, each once.
 
     Raises:
-        InputError: they are no list, or one is unknown.
+        InputError: they are no list, one is unknown, or tells of cells where there are none.
     """
     if isinstance(names, str) or not isinstance(names, Iterable):
         raise InputError(f"fields must be a list of names, such as ['distance'], got {names!r}")
@@ -46,6 +46,11 @@ def checked_fields(names: Sequence[str]) -> tuple[str, ...]:
     for name in names:
         if name not in FIELDS:
             raise InputError(f"{name!r} is no field; there are {', '.join(FIELDS)}")
+        if name == "cell" and not with_cells:
+            raise InputError(
+                "the field 'cell' tells of cells, and a mesh with --cells none has none: leave it "
+                "out, or choose --cells skeleton or face"
+            )
     return tuple(dict.fromkeys(names))
 
 

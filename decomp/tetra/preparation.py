@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Literal
 
 from decomp.complex.refine_elements import Elements
 from decomp.geometry import Geometry
+from decomp.tetra.boundary_surface import boundary_surface
 from decomp.tetra.cells import CellMap, cell_map
 from decomp.tetra.child import Settings, SizeField
 from decomp.tetra.chords import chords
@@ -23,9 +26,14 @@ from decomp.vectors import Array, Ints
 
 CHORD, COARSEST = 0.4, 0.65
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
+CUSP = 2.0
+"""Faces that meet at less than this angle (degrees) make a cusp, whose tip no epsilon fits into.
+Only sheets, which end in it, need as small a one as there is."""
 SHORTEST = 7.0
 """The shortest edges are at least so many epsilons long."""
 
+Cells = Literal["skeleton", "face", "none"]
+"""Which cells a mesh has: the skeleton's, one for each face, or none."""
 Progress = Callable[[str, float], None]
 """Told what is being done, and which part of the whole (0 to 1) is behind."""
 
@@ -36,7 +44,7 @@ class Prepared:
 
     Args:
         geometry: of the model.
-        surface: boundary and skeleton.
+        surface: boundary, and skeleton if there are cells.
         known: its cells.
         plan: which patches part them.
         elements: of the complex.
@@ -65,31 +73,31 @@ class Prepared:
     chords: Wishes
 
 
-def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) -> Prepared:
-    """Compute the skeleton, and choose sizes and epsilon.
+def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:
+    """Compute the skeleton, unless there are to be no cells, and choose sizes and epsilon.
 
     Args:
         geometry: of the model.
         wanted: by the user.
-        by_face: whether a cell is made for each face.
+        cells: which there are to be.
         tell: of the progress.
 
     Raises:
         InputError: the mesh would not fit into memory.
-        GeometryError: the skeleton cannot be computed.
+        GeometryError: the boundary cannot be triangulated, or the skeleton not be computed.
     """
     sizes = region_sizes(geometry, wanted)
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
-    maker = SurfaceMaker(geometry, tell)
+    make = _maker(geometry, cells, sizes, tell)
     longest = float(sizes.min())
-    epsilon = usual_epsilon(geometry, longest)
-    surface = maker.made(CHORD * epsilon, by_face)
+    epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
+    surface = make(CHORD * epsilon)
     epsilon = fitting_epsilon(geometry, surface, epsilon, longest)
-    surface = _fine_enough(surface, epsilon, maker, by_face)
+    surface = _fine_enough(surface, epsilon, make)
     tell("sizing", 1.0)
     wish = wishes(geometry, surface, wanted)
     epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
-    surface = _fine_enough(surface, epsilon, maker, by_face)
+    surface = _fine_enough(surface, epsilon, make)
     expected = expected_tets(geometry, wish, sizes)
     check_memory(expected)
     length, field = sizing(geometry, wish, sizes)
@@ -113,10 +121,20 @@ def prepared(geometry: Geometry, wanted: Wanted, by_face: bool, tell: Progress) 
     )
 
 
+def _maker(
+    geometry: Geometry, cells: Cells, sizes: Array, tell: Progress
+) -> Callable[[float], MeshSurface]:
+    """What makes a complex for a chord tolerance, in model units."""
+    if cells == "none":
+        tell("triangulating the boundary", 0.0)
+        return partial(boundary_surface, geometry, sizes)
+    return partial(SurfaceMaker(geometry, tell).made, by_face=cells == "face")
+
+
 def _fine_enough(
-    surface: MeshSurface, epsilon: float, maker: SurfaceMaker, by_face: bool
+    surface: MeshSurface, epsilon: float, make: Callable[[float], MeshSurface]
 ) -> MeshSurface:
     """The surface, or a finer one if it is too coarse for an epsilon."""
     if surface.tolerance <= COARSEST * epsilon:
         return surface
-    return maker.made(CHORD * epsilon, by_face)
+    return make(CHORD * epsilon)

@@ -63,12 +63,27 @@ class MeshSurface:
         complex: triangles and lines.
         tolerance: its chord tolerance, in model units.
         regions: in the model's order.
+        has_skeleton: whether the complex holds the skeleton beside the boundary.
     """
 
     sites: tuple[Site, ...]
     complex: Complex
     tolerance: float
     regions: tuple[RegionSurface, ...]
+    has_skeleton: bool = True
+
+
+def coarsest(make: Callable[[float], MeshSurface], tolerance: float) -> MeshSurface:
+    """What is made with a tolerance, or with a finer one if that fails.
+
+    Raises:
+        GeometryError: the finest one fails too.
+    """
+    for _ in range(FINER_TRIES):
+        with suppress(GeometryError):
+            return make(tolerance)
+        tolerance /= FINER
+    return make(tolerance)
 
 
 class SurfaceMaker:
@@ -107,11 +122,7 @@ class SurfaceMaker:
             GeometryError: a cell is not closed, or the cells do not fill their region.
         """
         self._tell("triangulating sheets", TRACING)
-        for _ in range(FINER_TRIES):
-            with suppress(GeometryError):
-                return self._made(tolerance, by_face)
-            tolerance /= FINER
-        return self._made(tolerance, by_face)
+        return coarsest(lambda fine: self._made(fine, by_face), tolerance)
 
     def _made(self, tolerance: float, by_face: bool) -> MeshSurface:
         while True:
@@ -141,7 +152,7 @@ def _assembled(
         sheets = {patch: sheet.sites for patch, sheet in made}
         cells = _cells(mesh, curves[number], sides, sheets, draft.trims[number], by_face)
         regions.append(RegionSurface(boundary.name, boundary, sides, sheets, cells))
-    return _checked(MeshSurface(geometry.sites, mesh, tolerance, tuple(regions)))
+    return checked(MeshSurface(geometry.sites, mesh, tolerance, tuple(regions)))
 
 
 def _cells(
@@ -162,7 +173,7 @@ def _cells(
     return found if by_face else skeleton_cells(mesh, boundary, found, trims)
 
 
-def _checked(made: MeshSurface) -> MeshSurface:
+def checked(made: MeshSurface) -> MeshSurface:
     """Fill in the cells' volumes.
 
     Raises:

@@ -44,6 +44,9 @@ FILES = {
     + "solid many = multitranslate (0,1,0; 999; row);\ntlo many;\n",
     "twice.geo": GEO + "solid twice = sphere (0,0,0; 1);\nsolid twice = sphere (0,0,0; 2);\n",
     "tube.geo": GEO + "solid tube = sphere (0,0,0; 1);\n",
+    "kiss.geo": GEO
+    + "solid one = sphere (0,0,0; 1);\nsolid two = sphere (2,0,0; 1);\nsolid kiss = one or two;\n"
+    "tlo kiss;\n",
     "tangled.geo": GEO
     + "solid a = sphere (0,0,0; 1);\nsolid b = sphere (1,0,0; 1);\ntlo a;\ntlo b;\n",
 }
