@@ -7,14 +7,22 @@ it. Between two cuts the signs of all other carriers are constant, so one point 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from decomp.boundary.shared_lines import SharedLines, StraightPart
+from decomp.boundary.tangencies import Tangencies
 from decomp.csg.extents import BOX_SLACK, EVERYTHING, overlap
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.curves import crossing_candidates, crossings, intersect, meeting_pairs
+from decomp.curves import (
+    Intersection,
+    crossing_candidates,
+    crossings,
+    intersect,
+    meeting_pairs,
+)
 from decomp.curves.base import Curve
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
@@ -77,9 +85,14 @@ def arrange(form: HalfSpaceForm, radius: float) -> Arrangement:
     """Intersect all pairs of carriers within `radius` of the form's centre."""
     builder = _Arranger(form, radius)
     boxes = form.carrier_boxes
+    met: list[tuple[int, int, Intersection]] = []
     for i, j in meeting_pairs(form.carriers, form.centre, radius, form.tolerance):
         if overlap(boxes[i], boxes[j]):
-            builder.add_pair(i, j)
+            one, other = form.carriers[i], form.carriers[j]
+            met.append((i, j, intersect(one, other, form.centre, radius, form.tolerance)))
+            builder.tangencies.add(*met[-1])
+    for pair in met:
+        builder.add_pair(*pair)
     builder.finish()
     arcs = [arc for index in range(len(builder.curves)) for arc in builder.cut(index)]
     return Arrangement(
@@ -103,13 +116,12 @@ class _Arranger:
         self._cuts_of: list[Array] = []
         self._shared: dict[tuple[int, ...], list[int]] = {}
         self._lines = SharedLines(10 * form.tolerance)
+        # where carriers touch is located to the square root of the working precision
+        self.tangencies = Tangencies(1e-6 * form.scale)
 
-    def add_pair(self, i: int, j: int) -> None:
+    def add_pair(self, i: int, j: int, found: Intersection) -> None:
         """Add the curves of two carriers; straight ones wait for `finish`."""
         form = self.form
-        found = intersect(
-            form.carriers[i], form.carriers[j], form.centre, self.radius, form.tolerance
-        )
         self.contacts.extend(Contact((i, j), point) for point in found.contacts)
         box = np.array(_common(form.carrier_boxes[i], form.carrier_boxes[j]))
         for piece in found.curves:
@@ -168,7 +180,13 @@ class _Arranger:
             ends = curve.point(np.array(curve.domain))
             around = np.array(_common(np.array([ends.min(axis=0), ends.max(axis=0)]), box))
             others = self._candidates(curve, around, holding)
-            met = line_crossings(curve, form.table, others, form.tolerance)
+            met = line_crossings(
+                curve,
+                form.table,
+                others,
+                form.tolerance,
+                lambda k, points: self.tangencies.at(k, holding, points),
+            )
             return met.contained.tolist(), met.parameters
         # what holds a curve is told from all of it, so that all its pairs agree
         centre, radius = curve.bounding_ball()
@@ -179,8 +197,9 @@ class _Arranger:
         held = gaps <= form.tolerance
         near = overlap(form.carrier_boxes[others], np.array(_common(ball, box)))
         contained, cuts = others[held].tolist(), [np.empty(0)]
-        for k in others[near & ~held]:
-            crossed = crossings(curve, form.carriers[k], form.tolerance)
+        for k in others[near & ~held].tolist():
+            touches = partial(self.tangencies.at, k, holding)
+            crossed = crossings(curve, form.carriers[k], form.tolerance, touches)
             cuts.append(crossed.parameters)
         return contained, np.concatenate(cuts)
 
