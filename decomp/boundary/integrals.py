@@ -54,10 +54,17 @@ class Track:
 
 @dataclass(frozen=True)
 class FaceIntegrals:
-    """Area, and the flux: the integral of (p - origin) . n with the region's outward normal."""
+    """Integrals over a face.
+
+    Args:
+        area: of the face.
+        flux: the integral of (p - origin) . n with the region's outward normal.
+        covers_pole: on a sphere, whether the pole is inside the face.
+    """
 
     area: float
     flux: float
+    covers_pole: bool = False
 
 
 def tracks(edge: RawEdge) -> tuple[Track, Track]:
@@ -103,6 +110,7 @@ def face_integrals(
     for s, track in signed:
         vector_area += s * cross(track.points - origin, track.steps).sum(axis=0) / 2
 
+    covers_pole = False
     match carrier:
         case Plane():
             area = float(vector_area @ carrier.normal_vector)
@@ -114,11 +122,11 @@ def face_integrals(
             area = -sum(s * _cone_term(carrier, t) for s, t in signed)
             flux = float((carrier.apex - origin) @ vector_area)
         case Sphere():
-            whole = 4 * np.pi * carrier.radius**2
-            area = whole
+            area = 0.0
             if pole is not None:
                 area = -sum(s * _sphere_term(carrier, t, pole) for s, t in signed)
-                area += whole if area <= 0 else 0.0  # then the pole is inside the face
+            covers_pole = area <= 0
+            area += 4 * np.pi * carrier.radius**2 if covers_pole else 0.0
             flux = float((carrier.centre - origin) @ vector_area) + carrier.radius * area
         case Torus():
             area, cosine = _torus_integrals(face, carrier, edges, signed)
@@ -126,7 +134,7 @@ def face_integrals(
             flux += carrier.major * cosine + carrier.minor * area
         case _:
             raise TypeError(f"no area formula for a {carrier.kind}")
-    return FaceIntegrals(float(area), sign * float(flux))
+    return FaceIntegrals(float(area), sign * float(flux), covers_pole)
 
 
 def _panels(edge: RawEdge) -> Array:

@@ -1,4 +1,4 @@
-"""Where pairs of carriers touch: a curve of the one that dips through the other there touches it."""
+"""Where pairs of carriers touch, so that curves of the one touch the other."""
 
 from __future__ import annotations
 

@@ -20,7 +20,6 @@ from decomp.curves.base import Curve
 from decomp.curves.newton import SINGULAR, cross_direction, onto_pair
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
-
 STRAYED = 0.2
 """Newton's method moves no point by more than this part of its distance from a singular end."""
 
