@@ -29,7 +29,7 @@ def test_faces_that_were_taken_for_one(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_hole_that_was_taken_for_a_face(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(faces, "_groups", lambda w: [[k] for k in range(len(w.loops.loops))])
-    with pytest.raises(GeometryError, match="could not be joined|characteristic"):
+    with pytest.raises(GeometryError, match=r"could not be joined|characteristic"):
         decomp.Geometry(Block((0, 0, 0), (4, 4, 1)) - Cylinder((2, 2, -1), (2, 2, 2), 1))
 
 
@@ -56,7 +56,7 @@ def test_edges_that_were_linked_across_a_vertex(monkeypatch: pytest.MonkeyPatch)
 def test_an_area_that_is_wrong(term: str, solid: Solid, monkeypatch: pytest.MonkeyPatch) -> None:
     right: Callable[..., float] = getattr(integrals, term)
     monkeypatch.setattr(integrals, term, lambda *args: 1.001 * right(*args))
-    with pytest.raises(GeometryError, match="by one vector field and .* by another") as error:
+    with pytest.raises(GeometryError, match=r"by one vector field and .* by another") as error:
         decomp.Geometry(solid)
     told = re.search(r"volume is (\S+) by one vector field and (\S+) by", str(error.value))
     assert told is not None

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 
@@ -13,6 +11,7 @@ import numpy as np
 
 from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
 from decomp.csg.extents import BOX_SLACK, extents
+from decomp.csg.merging import doubt, merged
 from decomp.csg.model import Model
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import FALSE, TRUE, Program, ProgramBuilder, inverted
@@ -116,12 +115,16 @@ class HalfSpaceForm:
 
 @dataclass(frozen=True, eq=False)
 class _Context:
-    """What a node inherits from those above it."""
+    """What a node inherits from those above it.
+
+    `inexact` are the moves that are known to few digits, the outermost first.
+    """
 
     transform: Similarity
     prefix: str
     suffix: str
     options: Options
+    inexact: tuple[Similarity, ...] = ()
 
 
 def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
@@ -135,8 +138,11 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
     roots = [expander.expand(region.solid) for region in model.regions]
     centre, estimate = _extent(expander)
     size = estimate if scale is None else scale
-    index, sign, carriers = _merge(expander.carriers, size)
+    index, sign, carriers = merged(expander.carriers, size, expander.steps)
 
+    # a carrier may have been merged with one that lies so far off
+    widest = 2 * max((doubt(steps, size) for steps in expander.steps), default=0.0)
+    room = np.array([[-widest], [widest]])
     builder = ProgramBuilder()
     reference: list[int] = []
     for kind, content in expander.nodes:
@@ -146,7 +152,7 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
             parts = [reference[ref >> 1] ^ (ref & 1) for ref in content]
             reference.append(builder.conjunction(parts))
             if len(reference) - 1 in expander.bounds:
-                builder.bound(reference[-1], expander.bounds[len(reference) - 1])
+                builder.bound(reference[-1], expander.bounds[len(reference) - 1] + room)
     program = builder.finish([reference[r >> 1] ^ (r & 1) for r in roots])
 
     placed = tuple(
@@ -185,6 +191,7 @@ class _Expander:
 
     def __init__(self, names: dict[int, str]) -> None:
         self.carriers: list[Carrier] = []
+        self.steps: list[tuple[Similarity, ...]] = []
         self.bounds: dict[int, Array] = {}
         self.nodes: list[tuple[str, tuple[int, ...]]] = [("and", ())]
         self.placed: list[tuple[str, list[tuple[str, int]], Options]] = []
@@ -269,6 +276,7 @@ class _Expander:
             self.nodes.append(("literal", (len(self.carriers),)))
             literals.append(2 * (len(self.nodes) - 1))
             self.carriers.append(carrier.transformed(context.transform))
+            self.steps.append(context.inexact)
         box = primitive.bounds()
         if box is not None:
             corners = np.array([[box[(k >> j) & 1, j] for j in range(3)] for k in range(8)])
@@ -294,16 +302,20 @@ def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
     """The context below a `Transformed`, `Copies` or `Labelled` node."""
     match node:
         case Transformed(by=by):
-            inner = outer.transform.after(by)
-            return _Context(inner, outer.prefix, outer.suffix, outer.options)
+            return _moved(outer, by, outer.suffix)
         case Copies(by=by):
-            inner = outer.transform.after(by[copy])
-            return _Context(inner, outer.prefix, f"#{copy + 1}{outer.suffix}", outer.options)
+            return _moved(outer, by[copy], f"#{copy + 1}{outer.suffix}")
         case Labelled(name=name, options=options):
             prefix = outer.prefix if name is None else f"{outer.prefix}{name}."
-            merged = MappingProxyType({**outer.options, **options})
-            return _Context(outer.transform, prefix, outer.suffix, merged)
+            both = MappingProxyType({**outer.options, **options})
+            return replace(outer, prefix=prefix, options=both)
     raise TypeError(f"{type(node).__name__} gives no context")
+
+
+def _moved(outer: _Context, by: Similarity, suffix: str) -> _Context:
+    inexact = (*outer.inexact, by) if by.doubt or by.shift else outer.inexact
+    inner = outer.transform.after(by)
+    return replace(outer, transform=inner, suffix=suffix, inexact=inexact)
 
 
 def _extent(expander: _Expander) -> tuple[Array, float]:
@@ -322,38 +334,3 @@ def _extent(expander: _Expander) -> tuple[Array, float]:
     cloud = np.concatenate(points)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
     return (low + high) / 2, float(np.linalg.norm(high - low)) or 1.0
-
-
-def _merge(carriers: Sequence[Carrier], scale: float) -> tuple[list[int], list[int], list[Carrier]]:
-    """Find coincident carriers.
-
-    Returns:
-        For each carrier the index of the surface that represents it and whether their insides
-        agree (+1) or are opposite (-1); and the representatives.
-    """
-    representatives: list[Carrier] = []
-    index: list[int] = []
-    sign: list[int] = []
-    # Coincident carriers have nearly equal features, so nearly equal keys: one fixed projection.
-    sorted_keys: dict[int, list[tuple[float, int]]] = {}
-    slack = 100 * TOLERANCE
-    for carrier in carriers:
-        features = carrier.features(scale)
-        key = float(features @ np.sqrt(np.arange(2, 2 + len(features))))
-        known = sorted_keys.setdefault(carrier.code, [])
-        start = bisect_left(known, (key - slack * (1 + abs(key)), -1))
-        match, orientation = -1, 0
-        for other_key, candidate in known[start:]:
-            if other_key > key + slack * (1 + abs(key)):
-                break
-            orientation = representatives[candidate].coincides(carrier, TOLERANCE * scale, scale)
-            if orientation:
-                match = candidate
-                break
-        if match < 0:
-            match, orientation = len(representatives), 1
-            representatives.append(carrier)
-            insort(known, (key, match))
-        index.append(match)
-        sign.append(orientation)
-    return index, sign, representatives
