@@ -24,7 +24,7 @@ from decomp.csg.solid import (
     walk,
 )
 from decomp.errors import InputError
-from decomp.formats.native_schema import DEEPEST_OPTION, PRIMITIVES, TYPE_OF, VERSION
+from decomp.formats.native_schema import DEEPEST_OPTION, OPEN, PRIMITIVES, TYPE_OF, VERSION
 from decomp.similarity import Similarity
 
 
@@ -96,11 +96,13 @@ def _plain_number(value: Any) -> Any:
 
 
 def _similarity_out(by: Similarity) -> dict[str, Any]:
-    return {
+    written = {
         "rotation": by.rotation.tolist(),
         "scale": float(by.scale),
         "offset": by.offset.tolist(),
     }
+    written.update({key: float(getattr(by, key)) for key in OPEN if getattr(by, key)})
+    return written
 
 
 def _options_out(options: Options, where: str) -> dict[str, Any]:

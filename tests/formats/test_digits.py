@@ -61,6 +61,22 @@ def test_parts_that_meet_in_planes_known_to_six_digits(tmp_path: Path, turn: flo
     assert region.volume == pytest.approx(5 * 512, rel=2e-5)
 
 
+def test_converted_models_know_of_their_digits(tmp_path: Path) -> None:
+    few = np.vectorize(lambda v: float(f"{v:.6g}"))
+    blocks = [
+        Block((0, 0, 0), (8, 8, 8)).transform(
+            few(turned(18, offset=(8 * k * cos(pi / 10), 8 * k * sin(pi / 10), 0)))
+        )
+        for k in range(3)
+    ]
+    path = tmp_path / "blocks.json"
+    decomp.save(model(union(blocks)), path)
+    assert len(decomp.Geometry(path).regions[0].faces) == 6
+    path.write_text(path.read_text().replace('"shift": ', '"shift": -'))
+    with pytest.raises(decomp.DecompError, match="doubt and shift must not be negative"):
+        decomp.load(path)
+
+
 @pytest.mark.parametrize("scale", [1, 2, 0.5, 25.4, 1.25])
 def test_scales_are_the_numbers_that_six_digits_stand_for(scale: float) -> None:
     matrix = turned(18, scale)
