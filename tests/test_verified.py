@@ -63,6 +63,39 @@ def test_an_area_that_is_wrong(term: str, solid: Solid, monkeypatch: pytest.Monk
     assert float(told[1]) != float(told[2])
 
 
+@pytest.mark.parametrize("cut", [False, True])
+def test_a_torus_too_many(cut: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    right: Callable[..., tuple[float, float, int]] = integrals._torus_integrals
+
+    def wrong(torus: Torus, border: Any) -> tuple[float, float, int]:
+        area, cosine, wholes = right(torus, border)
+        whole = 4 * np.pi**2 * torus.major * torus.minor
+        return area + whole, cosine, wholes
+
+    monkeypatch.setattr(integrals, "_torus_integrals", wrong)
+    ring = Torus((0, 0, 0), (0, 0, 1), 2, 0.5)
+    with pytest.raises(GeometryError, match=r"by one vector field and .* by another"):
+        decomp.Geometry(ring - Block((0, -3, -1), (3, 6, 2)) if cut else ring)
+
+
+@pytest.mark.parametrize(
+    "cutter",
+    [
+        Block((0, -3, -1), (3, 6, 2)),
+        Block((-3, -3, 0.2), (6, 6, 2)),
+        Cylinder((0, 0, -2), (0, 0, 2), 2.1),
+        Sphere((2, 0, 0.3), 0.6),
+        Block((1.6, -3, -0.1), (2, 6, 2)),
+    ],
+    ids=["tubes", "top", "middle", "bite", "bow"],
+)
+def test_volumes_of_cut_tori(cutter: Solid) -> None:
+    ring = Torus((0, 0, 0), (0, 0, 1), 2, 0.5)
+    whole = 2 * np.pi**2 * 2 * 0.25
+    parts = [decomp.Geometry(s).regions[0].volume for s in (ring - cutter, ring & cutter)]
+    assert sum(parts) == pytest.approx(whole, rel=1e-10)
+
+
 def test_nothing_is_checked_away(monkeypatch: pytest.MonkeyPatch) -> None:
     """Both checks are made of every region."""
     calls: list[str] = []

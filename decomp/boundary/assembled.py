@@ -85,7 +85,7 @@ def assembled(
     error = abs(volume - sum(i.flux for i in coarse) / 3) + 1e-14 * area * form.scale
     verify = (lambda k: quadrature[k][0]), poles, fine
     refuse_wrong_turning(member, raw, edges, points, *verify, tips)
-    refuse_wrong_volume(member, raw, *verify, volume, error)
+    refuse_wrong_volume(member, raw, edges, *verify, volume, error)
     return RegionBoundary(
         member.name,
         form.carriers,

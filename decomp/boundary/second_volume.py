@@ -12,14 +12,15 @@ A is a carrier's point less the origin; r(u) is the unit vector across the axis 
     cylinder  R r.e ((A.e + R r.e) v + k.e v^2 / 2)
     cone      sin(angle) n.e (A.e v^2 / 2 + d.e v^3 / 3), d the ruling
     sphere    powers of sin v and cos v, see `_sphere_term`
+    torus     the same, see `torus_flux`
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from decomp.boundary.integrals import Track
-from decomp.carriers import Cone, Cylinder, Plane, Sphere
+from decomp.boundary.integrals import TorusBorder, Track
+from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.vectors import Array, cross, dot, frame, norm
 
@@ -32,7 +33,7 @@ def second_flux(
     border: Track,
     origin: Array,
     pole: Array | None,
-    pole_inside: bool,
+    wholes: int,
 ) -> float:
     """The integral of ((p - origin) . e)(n . e) over a face, n the carrier's normal.
 
@@ -42,7 +43,7 @@ def second_flux(
             carrier's normal.
         origin: (3,).
         pole: on a sphere with edges, a unit direction away from them.
-        pole_inside: whether the pole is inside the face; true for a whole sphere.
+        wholes: 1 if the pole is inside the face, or the face is the whole sphere.
     """
     match carrier:
         case Plane():
@@ -52,10 +53,52 @@ def second_flux(
         case Cone():
             return -_cone_term(carrier, border, origin)
         case Sphere():
-            whole = 4 / 3 * np.pi * carrier.radius**3 if pole_inside else 0.0
+            whole = wholes * 4 / 3 * np.pi * carrier.radius**3
             if pole is None:
                 return whole
             return whole - _sphere_term(carrier, border, pole, origin)
+
+
+def torus_flux(torus: Torus, border: TorusBorder, origin: Array, wholes: int) -> float:
+    """The same on a torus.
+
+    With n = cos v r + sin v k, a = r.e, b = k.e, m = n.e and K = A.e + R a, the integrand is
+    small (K + small m) m (R + small cos v), whose parts integrate over v to
+
+        m        a s - b c                                   s = sin v, c = cos v
+        m c      a (v + s c) / 2 + b s^2 / 2
+        m^2      a^2 (v + s c) / 2 + a b s^2 + b^2 (v - s c) / 2
+        m^2 c    a^2 (s - s^3 / 3) - 2 a b c^3 / 3 + b^2 s^3 / 3
+
+    Args:
+        torus, border: the face.
+        origin: (3,).
+        wholes: how many whole tori are to be added.
+    """
+    big, small = torus.major, torus.minor
+    x, y = frame(torus.axis)
+    first, second, b = float(x @ E), float(y @ E), float(torus.axis @ E)
+    start = float((torus.centre - origin) @ E)
+    u, v = border.around, border.tube
+    a, s, c = np.cos(u) * first + np.sin(u) * second, np.sin(v), np.cos(v)
+    height = start + big * a
+    once, once_cosine = a * s - b * c, a * (v + s * c) / 2 + b * s**2 / 2
+    twice = a**2 * (v + s * c) / 2 + a * b * s**2 + b**2 * (v - s * c) / 2
+    twice_cosine = a**2 * (s - s**3 / 3) - 2 * a * b * c**3 / 3 + b**2 * s**3 / 3
+    inner = height * (big * once + small * once_cosine)
+    inner += small * (big * twice + small * twice_cosine)
+    flux = wholes * 2 * np.pi**2 * big * small**2 - small * float(inner @ border.steps)
+
+    def along_cut(angle: float) -> float:
+        """The integral over u of what stands before v: small^2 (A.e a + 2 R a^2 + R b^2) / 2."""
+        sine, cosine = np.sin(angle), np.cos(angle)
+        square = (first**2 + second**2) * angle + (first**2 - second**2) * sine * cosine
+        square = square / 2 + first * second * sine**2
+        line = start * (first * sine - second * cosine)
+        return float(small**2 / 2 * (line + 2 * big * square + big * b**2 * angle))
+
+    low, high, turns = border.cut
+    return flux - 2 * np.pi * turns * (along_cut(high) - along_cut(low))
 
 
 def _plane_term(plane: Plane, track: Track, origin: Array) -> float:

@@ -2,7 +2,7 @@
 
 1. Every face turns as its loops and handles say (Gauss and Bonnet, see `turning`).
 2. The corners of one carrier's faces fit around their vertex.
-3. The volume is the same by two vector fields (`second_volume`), unless a face is on a torus.
+3. The volume is the same by two vector fields (`second_volume`).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 
 from decomp.boundary.edges import RawEdge
 from decomp.boundary.faces import RawFace
-from decomp.boundary.integrals import FaceIntegrals, Track
+from decomp.boundary.integrals import FaceIntegrals, Track, torus_border
 from decomp.boundary.member import Member
-from decomp.boundary.second_volume import second_flux
+from decomp.boundary.second_volume import second_flux, torus_flux
 from decomp.boundary.topology import Vertex
 from decomp.boundary.torus_loops import genus, winding
 from decomp.boundary.turning import Turning, sampler, turning
@@ -73,7 +73,9 @@ def refuse_wrong_turning(
         found = turning(face, carrier, edges, sampled, pole, 10 * form.tolerance)
         if found is None:
             continue
-        inside = covered.count(index) if isinstance(carrier, Cone) else 2 * integral.covers_pole
+        inside = covered.count(index)
+        if isinstance(carrier, Sphere):
+            inside = 2 * integral.wholes
         _refuse_turns(member, face, found, inside, characteristic(face, member, edges))
         for vertex, angle in found.corners:
             if np.isfinite(angle):
@@ -102,6 +104,7 @@ def _refuse_turns(
 def refuse_wrong_volume(
     member: Member,
     faces: Sequence[RawFace],
+    edges: Sequence[RawEdge],
     track_of: Callable[[int], Track],
     poles: Poles,
     integrals: Sequence[FaceIntegrals],
@@ -111,18 +114,22 @@ def refuse_wrong_volume(
     """Raise GeometryError if another vector field gives another volume.
 
     Args:
-        member, faces, track_of, poles, integrals: see `refuse_wrong_turning`.
+        member, faces, edges, track_of, poles, integrals: see `refuse_wrong_turning`.
         volume: of the region.
         error: of the volume.
     """
     form, second = member.form, 0.0
     for face, integral in zip(faces, integrals, strict=True):
         carrier = form.carriers[face.carrier]
-        if not isinstance(carrier, (Plane, Sphere, Cylinder, Cone)):
-            return
-        pole = poles.get((face.carrier, face.outward))
-        border = _border(face, track_of)
-        flux = second_flux(carrier, border, form.centre, pole, integral.covers_pole)
+        if isinstance(carrier, Torus):
+            halves = [half for loop in face.loops for half in loop]
+            signed = [(float(face.outward * h.direction), track_of(h.edge)) for h in halves]
+            border = torus_border(face, carrier, edges, signed)
+            flux = torus_flux(carrier, border, form.centre, integral.wholes)
+        else:
+            assert isinstance(carrier, (Plane, Sphere, Cylinder, Cone))
+            pole = poles.get((face.carrier, face.outward))
+            flux = second_flux(carrier, _border(face, track_of), form.centre, pole, integral.wholes)
         second += face.outward * flux
     area = sum(integral.area for integral in integrals)
     if not abs(second - volume) <= ERRORS * error + AGREEMENT * area * form.scale:
