@@ -1,4 +1,4 @@
-"""Far from the origin, by 1,000 and 100,000 diagonals: boundaries and queries are the same there."""
+"""Boundaries and queries are the same far from the origin, 1,000 and 100,000 diagonals away."""
 
 from __future__ import annotations
 
