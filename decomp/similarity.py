@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import Decimal
 from math import cos, radians, sin
 
 import numpy as np
@@ -11,6 +12,13 @@ from numpy.typing import ArrayLike
 from decomp.errors import InputError
 from decomp.magnitude import check_length, check_magnitude
 from decomp.vectors import Array, direction, frozen, number, positive, vector
+
+FEW_DIGITS = 1e-5
+"""Matrices in files carry about six digits, so that an orthogonal one is off by 1e-6."""
+ALL_DIGITS = 1e-13
+"""A matrix that is off by no more than this is a similarity to rounding."""
+DIGITS = 6
+"""Numbers of so many significant digits were rounded to them; shorter ones are exact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,11 +29,16 @@ class Similarity:
         rotation: orthogonal matrix (3, 3), of determinant +1 or -1 (reflection).
         scale: factor above zero.
         offset: translation (3,).
+        doubt: how far an image may be off, in units of its distance from the origin, as the numbers
+            were given with few digits.
+        shift: how far all images may be off, for the same reason. Neither is handed on by `after`.
     """
 
     rotation: Array
     scale: float
     offset: Array
+    doubt: float = 0.0
+    shift: float = 0.0
 
     def points(self, p: Array) -> Array:
         """Images of points (..., 3)."""
@@ -88,6 +101,10 @@ def scaling(factor: float, centre: ArrayLike = (0, 0, 0)) -> Similarity:
 def from_matrix(matrix: ArrayLike) -> Similarity:
     """Read a homogeneous matrix (4, 4) or (3, 4).
 
+    Files give matrices with six digits or so, with which a rotation is none. It is made one again,
+    its scale is the shortest number that those digits can stand for, and what they leave open is
+    kept as `doubt` and `shift`. A matrix that is a similarity to rounding leaves nothing open.
+
     Raises:
         InputError: not a similarity: shear, non-uniform scale, zero scale or projection.
     """
@@ -109,10 +126,37 @@ def from_matrix(matrix: ArrayLike) -> Similarity:
     check_length(scale, "scale factor of the transform")
     u, _, vt = np.linalg.svd(linear / scale)
     nearest = u @ vt
-    # matrices in files carry about six digits, so an orthogonal one is off by 1e-6
-    if np.abs(nearest - linear / scale).max() > 1e-5:
+    miss = float(np.abs(nearest - linear / scale).max())
+    if miss > FEW_DIGITS:
         raise InputError("transform is not a similarity: it shears or scales unevenly")
-    return Similarity(frozen(nearest), scale, frozen(m[:3, 3]))
+    if miss <= ALL_DIGITS:
+        return Similarity(frozen(nearest), scale, frozen(m[:3, 3]))
+    shortest = _shortest(scale, max(3 * miss, _half_digit(linear)) * scale)
+    doubt = max(miss, _half_digit(linear) / scale)
+    shift = _half_digit(m[:3, 3])
+    return Similarity(frozen(nearest), shortest, frozen(m[:3, 3]), doubt, shift)
+
+
+def _half_digit(values: Array) -> float:
+    """Half a unit of the last decimal place of numbers that are given to six digits or more.
+
+    Of fewer digits they are taken as exact. 0 if all are.
+    """
+    most = 0.0
+    for value in np.asarray(values).ravel():
+        _, digits, exponent = Decimal(repr(float(value))).normalize().as_tuple()
+        if len(digits) >= DIGITS and isinstance(exponent, int):
+            most = max(most, 0.5 * 10.0**exponent)
+    return most
+
+
+def _shortest(value: float, error: float) -> float:
+    """The number of fewest digits within an error of a value."""
+    for digits in range(1, 17):
+        rounded = float(f"{value:.{digits}g}")
+        if abs(rounded - value) <= error:
+            return rounded
+    return value
 
 
 def _clean(value: float) -> float:

@@ -7,17 +7,29 @@ it. Between two cuts the signs of all other carriers are constant, so one point 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
-from decomp.csg.extents import BOX_SLACK, overlap
+from decomp.boundary.shared_lines import SharedLines, StraightPart
+from decomp.boundary.tangencies import Tangencies
+from decomp.csg.extents import BOX_SLACK, EVERYTHING, overlap
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.curves import crossing_candidates, crossings, intersect, meeting_pairs
+from decomp.curves import (
+    Intersection,
+    crossing_candidates,
+    crossings,
+    intersect,
+    meeting_pairs,
+)
 from decomp.curves.base import Curve
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
 from decomp.vectors import Array, Ints, norm
+
+PROBES = 23
+"""Points of a curve that tell whether a carrier holds it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,9 +85,15 @@ def arrange(form: HalfSpaceForm, radius: float) -> Arrangement:
     """Intersect all pairs of carriers within `radius` of the form's centre."""
     builder = _Arranger(form, radius)
     boxes = form.carrier_boxes
+    met: list[tuple[int, int, Intersection]] = []
     for i, j in meeting_pairs(form.carriers, form.centre, radius, form.tolerance):
         if overlap(boxes[i], boxes[j]):
-            builder.add_pair(i, j)
+            one, other = form.carriers[i], form.carriers[j]
+            met.append((i, j, intersect(one, other, form.centre, radius, form.tolerance)))
+            builder.tangencies.add(*met[-1])
+    for pair in met:
+        builder.add_pair(*pair)
+    builder.finish()
     arcs = [arc for index in range(len(builder.curves)) for arc in builder.cut(index)]
     return Arrangement(
         form,
@@ -97,72 +115,100 @@ class _Arranger:
         self.contacts: list[Contact] = []
         self._cuts_of: list[Array] = []
         self._shared: dict[tuple[int, ...], list[int]] = {}
+        self._lines = SharedLines(10 * form.tolerance)
+        # where carriers touch is located to the square root of the working precision
+        self.tangencies = Tangencies(1e-6 * form.scale)
 
-    def add_pair(self, i: int, j: int) -> None:
+    def add_pair(self, i: int, j: int, found: Intersection) -> None:
+        """Add the curves of two carriers; straight ones wait for `finish`."""
         form = self.form
-        found = intersect(
-            form.carriers[i], form.carriers[j], form.centre, self.radius, form.tolerance
-        )
         self.contacts.extend(Contact((i, j), point) for point in found.contacts)
-        low, high = _common(form.carrier_boxes[i], form.carrier_boxes[j])
+        box = np.array(_common(form.carrier_boxes[i], form.carrier_boxes[j]))
         for piece in found.curves:
-            curve = _clipped(piece.curve, low, high)
+            curve = _clipped(piece.curve, *box)
             if curve is None:
                 continue
-            others = self._candidates(curve, np.array([low, high]))
-            contained, cuts = self._cuts(curve, others[(others != i) & (others != j)])
+            contained, cuts = self._cuts(curve, (i, j), box)
             key = tuple(sorted([i, j, *contained]))
-            if len(key) > 2 and self._known(key, curve):
+            if isinstance(curve, Line):
+                self._lines.add(StraightPart(curve, key, found.nodes, cuts))
+            else:
+                self._add(curve, key, cuts, found.nodes)
+
+    def finish(self) -> None:
+        """Add the lines, each as long as any pair of its carriers asks for."""
+        for line in self._lines.waiting():
+            if line.cuts is not None:
+                self._add(line.line, line.carriers, line.cuts, line.nodes)
                 continue
-            at_nodes = self._parameters_of(curve, found.nodes)
-            self.curves.append(curve)
-            self.carriers.append(key)
-            self._cuts_of.append(np.concatenate([cuts, at_nodes]))
-            self._shared.setdefault(key, []).append(len(self.curves) - 1)
+            contained, cuts = self._cuts(line.line, line.carriers, EVERYTHING)
+            key = tuple(sorted([*line.carriers, *contained]))
+            # what more carriers hold may be one with other parts
+            self._lines.add(StraightPart(line.line, key, line.nodes, cuts))
+
+    def _add(self, curve: Curve, key: tuple[int, ...], cuts: Array, nodes: Array) -> None:
+        self.curves.append(curve)
+        self.carriers.append(key)
+        self._cuts_of.append(np.concatenate([cuts, self._parameters_of(curve, nodes)]))
+        self._shared.setdefault(key, []).append(len(self.curves) - 1)
 
     def cut(self, index: int) -> list[Arc]:
         """The arcs of one curve."""
         curve, tolerance = self.curves[index], self.form.tolerance
         low, high = curve.domain
         cuts = self._cuts_of[index]
+        if len(self.carriers[index]) > 2:
+            cuts = np.concatenate([cuts, self._ends_on(index)])
         if curve.closed:
             cuts = _distinct(curve, low + np.mod(cuts - low, high - low), tolerance, high - low)
             if not len(cuts):
-                return [Arc(index, low, high, True)]
+                known = self._is_known(index, (low + high) / 2)
+                return [] if known else [Arc(index, low, high, True)]
             ends = np.append(cuts, cuts[0] + high - low)
         else:
             ends = _distinct(curve, np.concatenate([[low], cuts, [high]]), tolerance, None)
         return [
             Arc(index, float(a), float(b), False)
             for a, b in pairwise(ends)
-            if self._matters(index, (a + b) / 2)
+            if self._matters(index, (a + b) / 2) and not self._is_known(index, (a + b) / 2)
         ]
 
-    def _cuts(self, curve: Curve, others: Ints) -> tuple[list[int], Array]:
-        """Which of the other carriers hold the curve, and where the rest of them cut it."""
+    def _cuts(self, curve: Curve, holding: tuple[int, ...], box: Array) -> tuple[list[int], Array]:
+        """Which carriers besides `holding` hold the curve, and where others cut it in a box."""
         form = self.form
         if isinstance(curve, Line):
-            met = line_crossings(curve, form.table, others, form.tolerance)
+            ends = curve.point(np.array(curve.domain))
+            around = np.array(_common(np.array([ends.min(axis=0), ends.max(axis=0)]), box))
+            others = self._candidates(curve, around, holding)
+            met = line_crossings(
+                curve,
+                form.table,
+                others,
+                form.tolerance,
+                lambda k, points: self.tangencies.at(k, holding, points),
+            )
             return met.contained.tolist(), met.parameters
-        contained, cuts = [], [np.empty(0)]
-        for k in others:
-            crossed = crossings(curve, form.carriers[k], form.tolerance)
-            if crossed.contained:
-                contained.append(int(k))
+        # what holds a curve is told from all of it, so that all its pairs agree
+        centre, radius = curve.bounding_ball()
+        ball = np.array([centre - radius, centre + radius])
+        others = self._candidates(curve, ball, holding)
+        points = curve.point(np.linspace(*curve.domain, PROBES))
+        gaps = np.abs(form.table.distances(points, others)).max(axis=1)
+        held = gaps <= form.tolerance
+        near = overlap(form.carrier_boxes[others], np.array(_common(ball, box)))
+        contained, cuts = others[held].tolist(), [np.empty(0)]
+        for k in others[near & ~held].tolist():
+            touches = partial(self.tangencies.at, k, holding)
+            crossed = crossings(curve, form.carriers[k], form.tolerance, touches)
             cuts.append(crossed.parameters)
         return contained, np.concatenate(cuts)
 
-    def _candidates(self, curve: Curve, box: Array) -> Ints:
-        """Carriers that may cut a curve inside a box."""
-        centre, radius = curve.bounding_ball()
-        around = _common(np.array([centre - radius, centre + radius]), box)
-        if isinstance(curve, Line):
-            ends = curve.point(np.array(curve.domain))
-            around = _common(np.array([ends.min(axis=0), ends.max(axis=0)]), box)
-        near = overlap(self.form.carrier_boxes, np.array(around))
-        crossed = np.zeros(len(near), dtype=np.bool_)
-        crossed[crossing_candidates(curve, self.form.table)] = True
-        return np.flatnonzero(near & crossed)
+    def _candidates(self, curve: Curve, box: Array, holding: tuple[int, ...]) -> Ints:
+        """Carriers but those that hold it that may cut a curve inside a box."""
+        chosen = np.zeros(len(self.form.carriers), dtype=np.bool_)
+        chosen[crossing_candidates(curve, self.form.table)] = True
+        chosen[list(holding)] = False
+        return np.flatnonzero(chosen & overlap(self.form.carrier_boxes, box))
 
     def _matters(self, index: int, parameter: float) -> bool:
         """Whether a point of a curve lies where two of its carriers can be faces.
@@ -177,16 +223,27 @@ class _Arranger:
         tight = overlap(boxes, np.array([point + margin, point - margin]))
         return int((inside & tight).sum()) >= 2
 
-    def _known(self, key: tuple[int, ...], curve: Curve) -> bool:
-        """Whether a curve on the same carriers runs through the same place already."""
-        low, high = curve.domain
-        probe = curve.point(np.array([low + 0.377 * (high - low)]))
-        for other in self._shared.get(key, []):
-            known = self.curves[other]
-            near = known.point(known.parameter(probe))
-            if float(norm(near - probe)[0]) <= 10 * self.form.tolerance:
-                return True
-        return False
+    def _before(self, index: int) -> list[Curve]:
+        """Curves on the same carriers that came before this one."""
+        same = self._shared[self.carriers[index]]
+        return [self.curves[k] for k in same[: same.index(index)]]
+
+    def _ends_on(self, index: int) -> Array:
+        """Parameters of a curve at which earlier curves on its carriers end."""
+        known = [curve for curve in self._before(index) if not curve.closed]
+        ends = [curve.point(np.array(curve.domain)) for curve in known]
+        curve = self.curves[index]
+        found = [t for pair in ends for t in self._parameters_of(curve, pair)]
+        return np.array(found, dtype=np.float64)
+
+    def _is_known(self, index: int, parameter: float) -> bool:
+        """Whether an earlier curve on the same carriers runs through a point of a curve."""
+        curve = self.curves[index]
+        point = curve.point(curve.wrapped(np.array([parameter])))
+        return any(
+            float(norm(other.point(other.parameter(point)) - point)[0]) <= 10 * self.form.tolerance
+            for other in self._before(index)
+        )
 
     def _parameters_of(self, curve: Curve, points: Array) -> Array:
         """Parameters of those points that lie on the curve."""

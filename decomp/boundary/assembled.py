@@ -16,8 +16,8 @@ from decomp.boundary.member import Member
 from decomp.boundary.naming import face_names
 from decomp.boundary.rays import Walker
 from decomp.boundary.topology import Convexity, Edge, Face, RegionBoundary, Vertex
-from decomp.boundary.torus_loops import genus, winding
-from decomp.carriers import Sphere, Torus
+from decomp.boundary.verified import characteristic, refuse_wrong_turning, refuse_wrong_volume
+from decomp.carriers import Sphere
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
 from decomp.vectors import Array, place
@@ -46,7 +46,8 @@ def assembled(
         reach: radius about the form's centre within which the region lies.
 
     Raises:
-        GeometryError: loops could not be joined to faces; says where.
+        GeometryError: loops could not be joined to faces, or figures contradict each other; says
+            where.
     """
     quadrature = [tracks(edge) for edge in edges]
     poles = _poles(form, member, edges, sets, reach)
@@ -79,10 +80,14 @@ def assembled(
         for face, integral, (name, options) in zip(raw, fine, names, strict=True)
     )
     finished = _edges(edges, raw, quadrature)
-    vertices = _vertices(points, finished) + apexes(form, member, raw, points)
+    tips = apexes(form, member, raw, points)
+    vertices = _vertices(points, finished) + tips
     area = sum(i.area for i in fine)
     volume = sum(i.flux for i in fine) / 3
-    rounding = 1e-14 * area * form.scale
+    error = abs(volume - sum(i.flux for i in coarse) / 3) + 1e-14 * area * form.scale
+    verify = (lambda k: quadrature[k][0]), poles, fine
+    refuse_wrong_turning(member, raw, edges, points, *verify, tips)
+    refuse_wrong_volume(member, raw, edges, *verify, volume, error)
     return RegionBoundary(
         member.name,
         form.carriers,
@@ -90,11 +95,11 @@ def assembled(
         finished,
         vertices,
         volume,
-        abs(volume - sum(i.flux for i in coarse) / 3) + rounding,
+        error,
         area,
         sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
         region_bounds(form, member, raw, finished, vertices),
-        _euler(form, member, edges, sum(parts), raw),
+        _euler(member, edges, sum(parts), raw),
     )
 
 
@@ -192,24 +197,13 @@ def _vertices(points: Array, edges: Sequence[Edge]) -> tuple[Vertex, ...]:
     return tuple(result)
 
 
-def _euler(
-    form: HalfSpaceForm,
-    member: Member,
-    edges: Sequence[RawEdge],
-    vertices: int,
-    raw: Sequence[RawFace],
-) -> int:
+def _euler(member: Member, edges: Sequence[RawEdge], vertices: int, raw: Sequence[RawFace]) -> int:
     """Half the Euler characteristic of the boundary, which is that of the solid.
 
     Where it touches itself it counts as parted: a vertex is as many as parts of it meet there.
     """
     total = vertices - sum(edge.ends is not None for edge in edges)
-    for face in raw:
-        handles = 0
-        carrier = form.carriers[face.carrier]
-        if isinstance(carrier, Torus):
-            handles = genus([winding(carrier, edges, p, face.outward) for p in face.loops])
-        total += 2 - 2 * handles - len(face.loops)
+    total += sum(characteristic(face, member, edges) for face in raw)
     if total % 2:
         raise GeometryError(
             f"region {member.name!r}: its boundary has the odd Euler characteristic {total}, so it "

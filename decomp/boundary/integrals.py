@@ -54,10 +54,18 @@ class Track:
 
 @dataclass(frozen=True)
 class FaceIntegrals:
-    """Area, and the flux: the integral of (p - origin) . n with the region's outward normal."""
+    """Integrals over a face.
+
+    Args:
+        area: of the face.
+        flux: the integral of (p - origin) . n with the region's outward normal.
+        wholes: how often the whole carrier is added to what the line integrals give: on a sphere 1
+            if the pole is inside the face, on a torus what the unwrapping leaves open.
+    """
 
     area: float
     flux: float
+    wholes: int = 0
 
 
 def tracks(edge: RawEdge) -> tuple[Track, Track]:
@@ -103,6 +111,7 @@ def face_integrals(
     for s, track in signed:
         vector_area += s * cross(track.points - origin, track.steps).sum(axis=0) / 2
 
+    wholes = 0
     match carrier:
         case Plane():
             area = float(vector_area @ carrier.normal_vector)
@@ -114,19 +123,20 @@ def face_integrals(
             area = -sum(s * _cone_term(carrier, t) for s, t in signed)
             flux = float((carrier.apex - origin) @ vector_area)
         case Sphere():
-            whole = 4 * np.pi * carrier.radius**2
-            area = whole
+            area = 0.0
             if pole is not None:
                 area = -sum(s * _sphere_term(carrier, t, pole) for s, t in signed)
-                area += whole if area <= 0 else 0.0  # then the pole is inside the face
+            wholes = int(area <= 0)
+            area += wholes * 4 * np.pi * carrier.radius**2
             flux = float((carrier.centre - origin) @ vector_area) + carrier.radius * area
         case Torus():
-            area, cosine = _torus_integrals(face, carrier, edges, signed)
+            border = torus_border(face, carrier, edges, signed)
+            area, cosine, wholes = _torus_integrals(carrier, border)
             flux = float((carrier.centre - origin) @ vector_area)
             flux += carrier.major * cosine + carrier.minor * area
         case _:
             raise TypeError(f"no area formula for a {carrier.kind}")
-    return FaceIntegrals(float(area), sign * float(flux))
+    return FaceIntegrals(float(area), sign * float(flux), wholes)
 
 
 def _panels(edge: RawEdge) -> Array:
@@ -189,38 +199,69 @@ def _sphere_term(sphere: Sphere, track: Track, pole: Array) -> float:
     return float((sphere.radius * rho * arc / (sphere.radius - z)).sum())
 
 
-def _torus_integrals(
+@dataclass(frozen=True, eq=False)
+class TorusBorder:
+    """Quadrature along the loops of a face on a torus, its angles unwrapped along each loop.
+
+    Args:
+        around, tube: angles (n,).
+        steps: d(around) times weight (n,).
+        cut: where two loops go around the torus, the angles around of two points of them and the
+            turns in the tube by which the unwrapping jumps on the way from one to the other.
+    """
+
+    around: Array
+    tube: Array
+    steps: Array
+    cut: tuple[float, float, int]
+
+
+def torus_border(
     face: RawFace,
     torus: Torus,
     edges: Sequence[RawEdge],
     signed: Sequence[tuple[float, Track]],
-) -> tuple[float, float]:
-    """Area, and the integral of cos(tube), of a face on a torus."""
-    big, small = torus.major, torus.minor
-    turn = 2 * np.pi
-    whole = turn * turn * big * small
-    if not face.loops:
-        return whole, turn * turn * small**2 / 2
-    area = cosine = 0.0
+) -> TorusBorder:
+    """Unwrap the loops of a face.
+
+    Args:
+        face, torus, edges: the face.
+        signed: for its half-edges in order, +1 or -1 and the quadrature of their edges.
+    """
+    none = np.empty(0)
+    parts: list[tuple[Array, Array, Array]] = [(none, none, none)]
     position = 0
     anchors: list[tuple[Array, int]] = []
     for loop in face.loops:
         own = signed[position : position + len(loop)]
         position += len(loop)
-        tube, steps, turns, start = _unwrapped(face, torus, edges, loop, own)
-        area -= float((small * (big * tube + small * np.sin(tube)) * steps).sum())
-        second = tube / 2 + np.sin(2 * tube) / 4
-        cosine -= float((small * (big * np.sin(tube) + small * second) * steps).sum())
+        angles, steps, turns, start = _unwrapped(face, torus, edges, loop, own)
+        parts.append((angles[:, 0], angles[:, 1], steps))
         if turns != (0, 0):
             anchors.append((start, turns[1]))
+    cut = (0.0, 0.0, 0)
     if len(anchors) == 2:
-        # the cut that joins the two loops which go around the torus
-        gap = float(anchors[1][0][0] - anchors[0][0][0])
-        shift = turn * anchors[0][1] * gap
-        area -= big * small * shift
-        cosine -= small**2 / 2 * shift
-    turns_missing = -np.floor(area / whole)
-    return area + turns_missing * whole, cosine + turns_missing * turn * turn * small**2 / 2
+        cut = (float(anchors[0][0][0]), float(anchors[1][0][0]), anchors[0][1])
+    around, tube, steps = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    return TorusBorder(around, tube, steps, cut)
+
+
+def _torus_integrals(torus: Torus, border: TorusBorder) -> tuple[float, float, int]:
+    """Area, the integral of cos(tube), and how many whole tori were added to both."""
+    big, small, tube, steps = torus.major, torus.minor, border.tube, border.steps
+    turn = 2 * np.pi
+    whole = turn * turn * big * small
+    if not len(steps):
+        return whole, turn * turn * small**2 / 2, 1
+    area = -float((small * (big * tube + small * np.sin(tube)) * steps).sum())
+    second = tube / 2 + np.sin(2 * tube) / 4
+    cosine = -float((small * (big * np.sin(tube) + small * second) * steps).sum())
+    start, end, turns = border.cut
+    shift = turn * turns * (end - start)
+    area -= big * small * shift
+    cosine -= small**2 / 2 * shift
+    wholes = -int(np.floor(area / whole))
+    return area + wholes * whole, cosine + wholes * turn * turn * small**2 / 2, wholes
 
 
 def _unwrapped(
@@ -230,7 +271,7 @@ def _unwrapped(
     loop: Sequence[HalfEdge],
     own: Sequence[tuple[float, Track]],
 ) -> tuple[Array, Array, tuple[int, int], Array]:
-    """A loop's quadrature: unwrapped tube angles and d(around); its turns; its start angles."""
+    """A loop's quadrature: unwrapped angles (n, 2) and d(around); its turns; its start angles."""
     wound = winding(torus, edges, loop, face.outward)
     ordered = list(own) if face.outward > 0 else list(own)[::-1]
     points, steps = [], []
@@ -241,4 +282,4 @@ def _unwrapped(
     start = wound.angles[0]
     angles = np.unwrap(np.concatenate([start[None, :], torus_angles(torus, where)]), axis=0)[1:]
     _, rho, arc = _angle_steps(torus.centre, torus.axis, Track(where, moves))
-    return angles[:, 1], arc / rho, wound.turns, start
+    return angles, arc / rho, wound.turns, start

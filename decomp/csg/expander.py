@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,12 +30,16 @@ from decomp.vectors import Array, norm
 
 @dataclass(frozen=True, eq=False)
 class _Context:
-    """What a node inherits from those above it."""
+    """What a node inherits from those above it.
+
+    `inexact` are the moves that are known to few digits, the outermost first.
+    """
 
     transform: Similarity
     prefix: str
     suffix: str
     options: Options
+    inexact: tuple[Similarity, ...] = ()
 
 
 class Expander:
@@ -46,6 +50,7 @@ class Expander:
 
     def __init__(self, names: dict[int, str]) -> None:
         self.carriers: list[Carrier] = []
+        self.steps: list[tuple[Similarity, ...]] = []
         self.bounds: dict[int, Array] = {}
         self.nodes: list[tuple[str, tuple[int, ...]]] = [("and", ())]
         self.placed: list[tuple[str, list[tuple[str, int]], Options]] = []
@@ -130,6 +135,7 @@ class Expander:
             self.nodes.append(("literal", (len(self.carriers),)))
             literals.append(2 * (len(self.nodes) - 1))
             self.carriers.append(_checked(carrier.transformed(context.transform), name))
+            self.steps.append(context.inexact)
         box = primitive.bounds()
         if box is not None:
             corners = np.array([[box[(k >> j) & 1, j] for j in range(3)] for k in range(8)])
@@ -156,15 +162,20 @@ def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
     """The context below a `Transformed`, `Copies` or `Labelled` node."""
     match node:
         case Transformed(by=by):
-            return _Context(_composed(outer, by), outer.prefix, outer.suffix, outer.options)
+            return _moved(outer, by, outer.suffix)
         case Copies(by=by):
             suffix = _short_enough(f"#{copy + 1}{outer.suffix}")
-            return _Context(_composed(outer, by[copy]), outer.prefix, suffix, outer.options)
+            return _moved(outer, by[copy], suffix)
         case Labelled(name=name, options=options):
             prefix = outer.prefix if name is None else _short_enough(f"{outer.prefix}{name}.")
             merged = Options({**outer.options, **options})
-            return _Context(outer.transform, prefix, outer.suffix, merged)
+            return replace(outer, prefix=prefix, options=merged)
     raise TypeError(f"{type(node).__name__} gives no context")
+
+
+def _moved(outer: _Context, by: Similarity, suffix: str) -> _Context:
+    inexact = (*outer.inexact, by) if by.doubt or by.shift else outer.inexact
+    return replace(outer, transform=_composed(outer, by), suffix=suffix, inexact=inexact)
 
 
 def _composed(outer: _Context, by: Similarity) -> Similarity:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,6 +12,7 @@ from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
 from decomp.csg.counting import refuse_too_many
 from decomp.csg.expander import Expander
 from decomp.csg.extents import BOX_SLACK, extents
+from decomp.csg.merging import doubt, merged
 from decomp.csg.model import Model
 from decomp.csg.options import Options
 from decomp.csg.primitives import Primitive
@@ -124,8 +123,11 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
     centre, estimate = _extent(expander)
     _refuse_far(centre, estimate)
     size = estimate if scale is None else scale
-    index, sign, carriers = _merge(expander.carriers, size)
+    index, sign, carriers = merged(expander.carriers, size, expander.steps)
 
+    # a carrier may have been merged with one that lies so far off
+    widest = 2 * max((doubt(steps, size) for steps in expander.steps), default=0.0)
+    room = np.array([[-widest], [widest]])
     builder = ProgramBuilder()
     reference: list[int] = []
     for kind, content in expander.nodes:
@@ -135,7 +137,7 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
             parts = [reference[ref >> 1] ^ (ref & 1) for ref in content]
             reference.append(builder.conjunction(parts))
             if len(reference) - 1 in expander.bounds:
-                builder.bound(reference[-1], expander.bounds[len(reference) - 1])
+                builder.bound(reference[-1], expander.bounds[len(reference) - 1] + room)
     program = builder.finish([reference[r >> 1] ^ (r & 1) for r in roots])
 
     placed = tuple(
@@ -191,38 +193,3 @@ def _extent(expander: Expander) -> tuple[Array, float]:
     cloud = np.concatenate(points)
     low, high = cloud.min(axis=0), cloud.max(axis=0)
     return (low + high) / 2, float(np.linalg.norm(high - low)) or 1.0
-
-
-def _merge(carriers: Sequence[Carrier], scale: float) -> tuple[list[int], list[int], list[Carrier]]:
-    """Find coincident carriers.
-
-    Returns:
-        For each carrier the index of the surface that represents it and whether their insides
-        agree (+1) or are opposite (-1); and the representatives.
-    """
-    representatives: list[Carrier] = []
-    index: list[int] = []
-    sign: list[int] = []
-    # Coincident carriers have nearly equal features, so nearly equal keys: one fixed projection.
-    sorted_keys: dict[int, list[tuple[float, int]]] = {}
-    slack = 100 * TOLERANCE
-    for carrier in carriers:
-        features = carrier.features(scale)
-        key = float(features @ np.sqrt(np.arange(2, 2 + len(features))))
-        known = sorted_keys.setdefault(carrier.code, [])
-        start = bisect_left(known, (key - slack * (1 + abs(key)), -1))
-        match, orientation = -1, 0
-        for other_key, candidate in known[start:]:
-            if other_key > key + slack * (1 + abs(key)):
-                break
-            orientation = representatives[candidate].coincides(carrier, TOLERANCE * scale, scale)
-            if orientation:
-                match = candidate
-                break
-        if match < 0:
-            match, orientation = len(representatives), 1
-            representatives.append(carrier)
-            insort(known, (key, match))
-        index.append(match)
-        sign.append(orientation)
-    return index, sign, representatives

@@ -11,10 +11,13 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.curves.series import Series, series
+from decomp.curves.touching import APART, Touching
 from decomp.vectors import Array, Bools, dot
 
 
-def conic_roots(curve: Curve, carrier: Carrier, tolerance: float) -> tuple[Array, Bools]:
+def conic_roots(
+    curve: Curve, carrier: Carrier, tolerance: float, touches: Touching
+) -> tuple[Array, Bools]:
     """Parameters where the conic is on the carrier (or on a cone's other nappe); touches?"""
     f = series(curve, carrier)
     slope = f.derivative()
@@ -29,6 +32,11 @@ def conic_roots(curve: Curve, carrier: Carrier, tolerance: float) -> tuple[Array
         stops = np.concatenate([[low], critical, [high]])
     values = f.value(stops)
     touch = np.abs(carrier.signed_distance(curve.point(stops))) <= tolerance
+    if touch.any():
+        dips = _dips(f, curve, stops, touch, APART * tolerance)
+        if dips.any():
+            dips[dips] = ~touches(curve.point(curve.wrapped(stops[dips])))
+        touch &= ~dips
     sign = np.where(touch, 0.0, np.sign(values))
     cross = np.nonzero(sign[1:] * sign[:-1] < 0)[0]
     simple = bracketed(f, slope, stops[cross], stops[cross + 1])
@@ -39,6 +47,36 @@ def conic_roots(curve: Curve, carrier: Carrier, tolerance: float) -> tuple[Array
         tangential[ends] = is_tangent(curve, carrier, stops[ends], tolerance)
     t = np.concatenate([simple, stops[touch]])
     return t, np.concatenate([np.zeros(len(simple), dtype=bool), tangential[touch]])
+
+
+def _dips(f: Series, curve: Curve, stops: Array, touch: Bools, apart: float) -> Bools:
+    """Which of the critical points that seem to be touches lie between two crossings.
+
+    Args:
+        f: the carrier's polynomial along the curve.
+        curve: the curve.
+        stops: critical points; of a closed curve the first one comes again at the end.
+        touch: whether the carrier is there within the tolerance.
+        apart: crossings nearer to each other are one touch.
+    """
+    values = f.value(stops)
+    sign = np.where(touch, 0.0, np.sign(values))
+    result = np.zeros(len(stops), dtype=np.bool_)
+    count = len(stops)
+    for k in np.flatnonzero(touch):
+        before, after = k - 1, k + 1
+        if curve.closed:
+            before, after = (k - 1) % (count - 1), (k + 1) % (count - 1)
+        elif k in (0, count - 1):
+            continue
+        if not (sign[before] * sign[after] > 0 and sign[before] * values[k] < 0):
+            continue
+        low = stops[before] - (curve.period if before > k else 0.0)
+        high = stops[after] + (curve.period if after < k else 0.0)
+        roots = bracketed(f, f.derivative(), np.array([low, stops[k]]), np.array([stops[k], high]))
+        tips = curve.point(curve.wrapped(roots))
+        result[k] = float(np.linalg.norm(tips[1] - tips[0])) > apart
+    return result
 
 
 def is_tangent(curve: Curve, carrier: Carrier, t: Array, tolerance: float) -> Bools:

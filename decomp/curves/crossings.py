@@ -12,6 +12,7 @@ from decomp.carriers.table import CarrierTable
 from decomp.curves.algebraic import conic_roots
 from decomp.curves.base import Curve
 from decomp.curves.sampled import traced_roots
+from decomp.curves.touching import Touching, anywhere
 from decomp.curves.traced import TracedCurve
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -31,18 +32,27 @@ class Crossings:
     tangential: Bools
 
 
-def crossings(curve: Curve, carrier: Carrier, tolerance: float) -> Crossings:
+def crossings(
+    curve: Curve, carrier: Carrier, tolerance: float, touches: Touching = anywhere
+) -> Crossings:
     """Find every parameter at which the curve is on the carrier.
 
     Touches that miss by no more than `tolerance` count. If the curve keeps within
     `tolerance` of the carrier altogether, it is contained.
+
+    Args:
+        curve: the curve.
+        carrier: the carrier.
+        tolerance: lengths below it count as zero.
+        touches: whether a curve that dips through the carrier, by no more than the tolerance,
+            only touches it at points (n, 3); elsewhere it crosses twice.
     """
     probe = np.linspace(*curve.domain, 23)
     points = curve.point(probe)
     if np.abs(carrier.signed_distance(points)).max() <= tolerance:
         return Crossings(True, np.empty(0), np.empty(0, dtype=bool))
     find = traced_roots if isinstance(curve, TracedCurve) else conic_roots
-    t, touch = find(curve, carrier, tolerance)
+    t, touch = find(curve, carrier, tolerance, touches)
     on = np.abs(carrier.signed_distance(curve.point(t))) <= tolerance
     t, touch = _once(curve, t[on], touch[on], tolerance)
     return Crossings(False, t, touch)

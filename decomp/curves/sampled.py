@@ -14,7 +14,8 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.curves.algebraic import is_tangent
 from decomp.curves.base import Curve
-from decomp.vectors import Array, Bools, dot
+from decomp.curves.touching import APART, Touching
+from decomp.vectors import Array, Bools, dot, norm
 
 SPLIT = 4
 MOST_LEVELS = 8
@@ -24,7 +25,9 @@ FASTEST = 1.2
 Function = Callable[[Array], Array]
 
 
-def traced_roots(curve: Curve, carrier: Carrier, tolerance: float) -> tuple[Array, Bools]:
+def traced_roots(
+    curve: Curve, carrier: Carrier, tolerance: float, touches: Touching
+) -> tuple[Array, Bools]:
     """Parameters where the curve is on the carrier, and whether it only touches it there."""
 
     def distance(t: Array) -> Array:
@@ -46,6 +49,12 @@ def traced_roots(curve: Curve, carrier: Carrier, tolerance: float) -> tuple[Arra
     bottom = _bracketed(slope, low[dip], high[dip])
     depth = distance(bottom)
     touch = np.abs(depth) <= tolerance
+    deep = np.flatnonzero(touch & (depth * side[dip] < 0) & (sign0 * sign1 != 0)[dip])
+    if len(deep):
+        start = _bracketed(distance, low[dip][deep], bottom[deep])
+        stop = _bracketed(distance, bottom[deep], high[dip][deep])
+        apart = norm(curve.point(stop) - curve.point(start)) > APART * tolerance
+        touch[deep] = ~apart | touches(curve.point(bottom[deep]))
     through = ~touch & (depth * side[dip] < 0)
     start = np.concatenate([low[cross], low[dip][through], bottom[through]])
     stop = np.concatenate([high[cross], bottom[through], high[dip][through]])

@@ -6,7 +6,9 @@ root is a touch; near one the line's least distance decides, as sqrt(h^2 - q c) 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -14,6 +16,7 @@ from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.table import CarrierTable
 from decomp.curves.crossings import crossings
 from decomp.curves.line import Line
+from decomp.curves.touching import APART, anywhere
 from decomp.vectors import Array, Bools, Ints
 
 
@@ -32,24 +35,42 @@ class LineCrossings:
     contained: Ints
 
 
-def line_crossings(line: Line, table: CarrierTable, among: Ints, tolerance: float) -> LineCrossings:
-    """Find all points in the line's domain where it meets or touches the carriers `among`."""
+TouchingEach = Callable[[int, Array], Bools]
+"""The same as `Touching`, for a carrier by its number."""
+
+
+def any_of_them(carrier: int, points: Array) -> Bools:
+    """Every dip is a touch."""
+    return anywhere(points)
+
+
+def line_crossings(
+    line: Line,
+    table: CarrierTable,
+    among: Ints,
+    tolerance: float,
+    touches: TouchingEach = any_of_them,
+) -> LineCrossings:
+    """Find all points in the line's domain where it meets or touches the carriers `among`.
+
+    What `touches` tells is a touch, see `crossings`.
+    """
     low, high = line.domain
     probes = line.point(np.array([low, 0.41 * low + 0.59 * high, high]))
     inside = (np.abs(table.distances(probes, among)) <= tolerance).all(axis=1)
     contained, rest = among[inside], among[~inside]
     tori = rest[table.kinds[rest] == Torus.code]
     rest = rest[table.kinds[rest] != Torus.code]
-    t, which = _quadratic_roots(line, table, rest, tolerance)
+    t, which = _quadratic_roots(line, table, rest, tolerance, touches)
     for k in tori:
-        met = crossings(line, table.carriers[k], tolerance)
+        met = crossings(line, table.carriers[k], tolerance, partial(touches, int(k)))
         t = np.concatenate([t, met.parameters])
         which = np.concatenate([which, np.full(len(met.parameters), k)])
     return LineCrossings(t, which, contained)
 
 
 def _quadratic_roots(
-    line: Line, table: CarrierTable, among: Ints, tolerance: float
+    line: Line, table: CarrierTable, among: Ints, tolerance: float, touches: TouchingEach
 ) -> tuple[Array, Ints]:
     quadratic, half, constant = _coefficients(line, table, among)
     low, high = line.domain
@@ -62,6 +83,8 @@ def _quadratic_roots(
         below, above = middle - spread, middle + spread
     straight = np.abs(quadratic) <= 1e-14
     touch = ~straight & _touches(line, table, among, middle, tolerance)
+    for row in np.flatnonzero(touch & (2 * spread > APART * tolerance)):
+        touch[row] = touches(int(among[row]), line.point(middle[row : row + 1]))[0]
     crossing = ~straight & ~touch & (square > 0)
     rows = np.arange(len(among))
     t = np.concatenate([single[straight], middle[touch], below[crossing], above[crossing]])

@@ -20,6 +20,9 @@ from decomp.curves.base import Curve
 from decomp.curves.newton import SINGULAR, cross_direction, onto_pair
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
+STRAYED = 0.2
+"""Newton's method moves no point by more than this part of its distance from a singular end."""
+
 
 @dataclass(frozen=True, eq=False)
 class TracedCurve(Curve):
@@ -94,7 +97,24 @@ class TracedCurve(Curve):
 
     def _solve(self, t: Array) -> tuple[Array, Array, Array, Array]:
         g, g1, g2 = self._guess(t)
-        return onto_pair(self.a, self.b, g, g1 / norm(g1)[..., None]), g, g1, g2
+        x = onto_pair(self.a, self.b, g, g1 / norm(g1)[..., None])
+        if any(self.singular):
+            astray = self._is_astray(t, x, g)
+            x = np.where(astray[..., None], self._between(g), x)
+        return x, g, g1, g2
+
+    def _is_astray(self, t: Array, x: Array, g: Array) -> Bools:
+        """Whether Newton's method led from g to another branch x, as it may beside a node."""
+        ends = [
+            abs(t - end) for sharp, end in zip(self.singular, self.domain, strict=True) if sharp
+        ]
+        return np.asarray(~(norm(x - g) <= STRAYED * np.min(ends, axis=0)))
+
+    def _between(self, p: Array) -> Array:
+        """Points as near to both carriers as they come to each other there."""
+        for _ in range(2):
+            p = (self.a.foot(p) + self.b.foot(p)) / 2
+        return p
 
     def _at_singular_end(self, t: Array) -> Bools:
         near = 1e-9 * self.period

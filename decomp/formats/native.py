@@ -27,7 +27,7 @@ from decomp.csg.solid import (
 )
 from decomp.errors import InputError, ParseError
 from decomp.formats.json_items import Item, a_list, a_vector, a_whole_number, shown
-from decomp.formats.native_schema import KNOWN, NODES, PRIMITIVES, VERSION
+from decomp.formats.native_schema import KNOWN, NODES, OPEN, PRIMITIVES, VERSION
 from decomp.formats.native_writing import dumps
 from decomp.formats.source import Source
 from decomp.magnitude import check_length
@@ -147,7 +147,7 @@ def _primitive(item: Item, cls: type[Primitive], fields: Mapping[str, str]) -> P
 
 def _similarity_in(value: Any, where: str) -> Similarity:
     item = Item(value, where)
-    item.only("rotation", "scale", "offset")
+    item.only("rotation", "scale", "offset", *OPEN)
     place = item.place("rotation")
     rows = [a_vector(row, place) for row in item.items("rotation")]
     rotation = frozen(rows) if len(rows) == 3 else frozen(np.zeros((3, 3)))
@@ -157,7 +157,10 @@ def _similarity_in(value: Any, where: str) -> Similarity:
     if scale <= 0:
         raise InputError(f"{item.place('scale')} must be positive, got {scale:g}")
     check_length(scale, item.place("scale"))
-    return Similarity(rotation, scale, item.vector("offset"))
+    doubt, shift = (item.number(key) if key in item.value else 0.0 for key in OPEN)
+    if min(doubt, shift) < 0:
+        raise InputError(f"{where}: doubt and shift must not be negative, got {doubt:g}, {shift:g}")
+    return Similarity(rotation, scale, item.vector("offset"), doubt, shift)
 
 
 def _earlier(value: Any, nodes: list[Solid], where: str) -> Solid:

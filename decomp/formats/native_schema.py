@@ -38,4 +38,6 @@ NODES: dict[str, tuple[str, ...]] = {
     "copies": ("part", "by"),
     "labelled": ("part", "name", "options"),
 }
+OPEN = ("doubt", "shift")
+"""Keys of a similarity that stand there if it is known to few digits, see `Similarity`."""
 KNOWN = (*PRIMITIVES, *NODES)

@@ -22,7 +22,7 @@ from decomp.csg.solid import (
     walk,
 )
 from decomp.errors import InputError
-from decomp.formats.native_schema import PRIMITIVES, TYPE_OF, VERSION
+from decomp.formats.native_schema import OPEN, PRIMITIVES, TYPE_OF, VERSION
 from decomp.similarity import Similarity
 
 
@@ -94,8 +94,10 @@ def _plain_number(value: Any) -> Any:
 
 
 def _similarity_out(by: Similarity) -> dict[str, Any]:
-    return {
+    written = {
         "rotation": by.rotation.tolist(),
         "scale": float(by.scale),
         "offset": by.offset.tolist(),
     }
+    written.update({key: float(getattr(by, key)) for key in OPEN if getattr(by, key)})
+    return written

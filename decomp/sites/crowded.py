@@ -11,7 +11,8 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.curves.base import Curve
-from decomp.sites.occupancy import ANYWHERE, OccupancyTree
+from decomp.sites.occupancy import OccupancyTree
+from decomp.sites.on_boundary import ANYWHERE
 from decomp.vectors import Array, Ints, dot, norm
 
 FaceLookup = Callable[[int, int, Array], Ints]

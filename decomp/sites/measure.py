@@ -8,7 +8,8 @@ from typing import NamedTuple
 from decomp.kernels.carriers import foot, signed_distance
 from decomp.kernels.compiled import inlined, inner
 from decomp.sites.edge_feet import ARC, circle_distance
-from decomp.sites.occupancy import NOWHERE, OccupancyTree, on_boundary
+from decomp.sites.occupancy import OccupancyTree
+from decomp.sites.on_boundary import NOWHERE, on_boundary
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_boxes import box_distance
 from decomp.sites.site_table import SiteTable

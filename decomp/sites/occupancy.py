@@ -1,4 +1,4 @@
-"""Which region holds a point, and whether a point of a carrier is on a region's boundary."""
+"""Which region holds a point."""
 
 from __future__ import annotations
 
@@ -11,26 +11,17 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.kernels.carriers import CarrierTable, carrier_table, signed_distance
 from decomp.kernels.compiled import inlined, inner, scalar
 from decomp.kernels.records import Record
+from decomp.sites.nearby import MOST_TURNS, ROOM
 from decomp.sites.occupancy_cells import circumradius, root_cells, split
 from decomp.sites.occupancy_leaves import (
     OUTSIDE,
     Leaves,
     joined,
     make_leaves,
-    region_word,
     shared_leaves,
 )
 from decomp.sites.octree import Links, Octree, grid_over, locate, root_centres
-from decomp.sites.programs import (
-    NOTHING,
-    PATTERN,
-    VARIABLES,
-    WHOLE,
-    Words,
-    evaluate,
-    flips,
-    programs_of,
-)
+from decomp.sites.programs import NOTHING, VARIABLES, WHOLE, Words, evaluate, programs_of
 from decomp.vectors import Array, Ints
 
 Labels = NDArray[np.int32]
@@ -39,9 +30,8 @@ DEPTH_LIMIT = 12
 CELL_LIMIT = 400_000
 FINE = 100_000
 """Up to so many nodes cells are split until one carrier is left, to save looking at others."""
-EXTRA = 8
-NOWHERE = -1
-ANYWHERE = 1 << 40
+MOST_TIED = 24
+"""So many carriers that hold one point are told apart by points close to it."""
 ROUNDING = 1e-12
 """Signed distances below this, relative to the coordinates' size, may have either sign."""
 
@@ -54,7 +44,8 @@ class OccupancyTree(Record):
         tree, leaves: the octree.
         table: the carriers.
         rounding: signed distances below this may have either sign.
-        words, values, extra: scratch for leaves without a table; see `private`.
+        words, values: scratch for leaves without a table; see `private`.
+        tied, turns, points: scratch for `on_boundary`.
     """
 
     tree: Octree
@@ -63,7 +54,9 @@ class OccupancyTree(Record):
     rounding: float
     words: Words
     values: Words
-    extra: Ints
+    tied: Ints
+    turns: Array
+    points: Array
 
 
 def occupancy_tree(form: HalfSpaceForm, bounds: Array) -> OccupancyTree:
@@ -109,7 +102,9 @@ def with_scratch(
         rounding,
         np.empty(longest, dtype=np.uint64),
         np.empty(leaves.programs.roots.shape[1], dtype=np.uint64),
-        np.empty(EXTRA, dtype=np.int64),
+        np.empty(MOST_TIED, dtype=np.int64),
+        np.empty(MOST_TURNS),
+        np.empty((ROOM, 3)),
     )
 
 
@@ -155,84 +150,6 @@ def label_by_program(occupancy: OccupancyTree, k: int, x: float, y: float, z: fl
         if values[r] != NOTHING:
             return r
     return OUTSIDE
-
-
-@inlined
-def on_boundary(
-    occupancy: OccupancyTree, label: int, carrier: int, x: float, y: float, z: float
-) -> int:
-    """Whether a point of a carrier is on the boundary of a region (or of the outside).
-
-    It is where the carrier's sign alone decides whether the point is in the region, with the best
-    choice of the signs of all other carriers that hold the point to rounding.
-
-    Returns:
-        NOWHERE if it is not; else where `carrier` stands in `Leaves.carriers` for the point's
-        leaf, ANYWHERE if the leaf has no table.
-    """
-    leaf = locate(occupancy.tree, x, y, z)
-    if leaf < 0:
-        return NOWHERE
-    leaves = occupancy.leaves
-    if leaves.whole[leaf] >= 0:
-        return on_boundary_by_program(occupancy, leaves.whole[leaf], label, carrier, x, y, z)
-    begin, end = leaves.first_carrier[leaf], leaves.first_carrier[leaf + 1]
-    slot = begin
-    while slot < end and leaves.carriers[slot] != carrier:
-        slot += 1
-    word, stop = leaves.first_word[leaf], leaves.first_word[leaf + 1]
-    while word < stop and leaves.labels[word] != label:
-        word += 1
-    if slot == end or word == stop:
-        return NOWHERE
-    patterns = flips(leaves.words[word], slot - begin)
-    for j in range(end - begin):
-        if patterns == NOTHING:
-            return NOWHERE
-        if begin + j != slot:
-            away = signed_distance(occupancy.table, leaves.carriers[begin + j], x, y, z)
-            if away < -occupancy.rounding:
-                patterns &= PATTERN[j]
-            elif away > occupancy.rounding:
-                patterns &= ~PATTERN[j]
-    return int(slot) if patterns != NOTHING else NOWHERE
-
-
-@inner
-def on_boundary_by_program(
-    occupancy: OccupancyTree, k: int, label: int, carrier: int, x: float, y: float, z: float
-) -> int:
-    """The same where too many carriers meet; at most 14 of them may hold the point at once."""
-    programs = occupancy.leaves.programs
-    first, last = programs.nodes[k], programs.nodes[k + 1]
-    words, values, extra = occupancy.words, occupancy.values, occupancy.extra
-    variables, extras, present = 1, 0, False
-    for node in range(first, last):
-        other = programs.literal[node]
-        if other < 0:
-            continue
-        if other == carrier:
-            words[node - first] = PATTERN[0]
-            present = True
-            continue
-        away = signed_distance(occupancy.table, other, x, y, z)
-        words[node - first] = WHOLE if away < 0.0 else NOTHING
-        if abs(away) <= occupancy.rounding:
-            if variables < VARIABLES:
-                words[node - first] = PATTERN[variables]
-                variables += 1
-            elif extras < len(extra):
-                extra[extras] = node - first
-                extras += 1
-    if not present:
-        return NOWHERE
-    for signs in range(1 << extras):
-        for j in range(extras):
-            words[extra[j]] = WHOLE if (signs >> j) & 1 else NOTHING
-        evaluate(programs, k, words, values)
-        if flips(region_word(values, label), 0) != NOTHING:
-            return ANYWHERE
-    return NOWHERE
 
 
 @scalar

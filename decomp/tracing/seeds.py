@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.boundary.topology import RegionBoundary
 from decomp.kernels.on_carriers import normals_at, projected
 from decomp.sites import SiteIndex
-from decomp.sites.occupancy import NOWHERE, on_boundary
+from decomp.sites.on_boundary import NOWHERE, on_boundary
 from decomp.tracing.balls import Balls, balls_at
 from decomp.tracing.compiled import scalar
 from decomp.tracing.edge_seeds import edge_jumps

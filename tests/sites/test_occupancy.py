@@ -12,8 +12,9 @@ from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import model
 from decomp.csg.primitives import HalfSpace, Sphere
 from decomp.csg.solid import Solid, intersection
-from decomp.sites import occupancy as kernels
-from decomp.sites.occupancy import NOWHERE, labels_of, occupancy_tree, private
+from decomp.sites import on_boundary as kernels
+from decomp.sites.occupancy import labels_of, occupancy_tree, private
+from decomp.sites.on_boundary import NOWHERE
 from tests.sites.random_solids import trees
 from tests.sites.reference import accepted, clear_of, labels
 
