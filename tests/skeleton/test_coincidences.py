@@ -1,0 +1,46 @@
+"""Parts whose features coincide: exact volumes, certified skeletons, whatever the place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.csg.model import model
+from tests.skeleton.coincidences import COINCIDENCES
+from tests.skeleton.computed import at_most
+
+
+@pytest.mark.parametrize("name", COINCIDENCES)
+def test_skeleton(name: str) -> None:
+    given = COINCIDENCES[name]
+    geometry = decomp.Geometry(given.make())
+    for region, volume, euler in zip(geometry.regions, given.volume, given.euler, strict=True):
+        assert region.volume == pytest.approx(volume, rel=1e-9)
+        assert region.euler == euler
+    with at_most(120):
+        skeleton = decomp.skeleton(geometry)
+    for region, volume, euler in zip(skeleton.regions, given.volume, given.euler, strict=True):
+        assert region.certificate.euler == euler
+        assert sum(cell.volume for cell in region.cells) == pytest.approx(volume, rel=1e-3)
+
+
+def test_random_bores() -> None:
+    """Plates with a bore along them, wherever it lies."""
+    rng = np.random.default_rng(5)
+    for _ in range(12):
+        radius = rng.uniform(0.5, 2.5)
+        y = rng.uniform(radius + 0.5, 29.5 - radius)
+        z = rng.uniform(radius + 0.4, 8.6 - radius)
+        bore = decomp.Cylinder((-1, y, z), (51, y, z), radius)
+        skeleton = decomp.skeleton(model(decomp.Block((0, 0, 0), (50, 30, 9)) - bore))
+        assert skeleton.regions[0].certificate.euler == 0
+
+
+def test_small_parts_do_not_make_all_finer() -> None:
+    """A ball in air 300 times as wide takes about as many triangles as three balls."""
+    both = decomp.skeleton(COINCIDENCES["ball in wide air"].make())
+    alone = decomp.skeleton(decomp.Sphere((0, 0, 0), 1))
+    count = sum(len(patch.triangles) for patch in both.complex.patches)
+    ball = sum(len(patch.triangles) for patch in alone.complex.patches)
+    assert count <= 4 * ball
