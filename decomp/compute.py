@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from decomp.arguments import called
+from decomp.attempts import Way, first_cause, first_of, stage
 from decomp.certificate.certificate import VOLUME
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
@@ -67,19 +68,17 @@ def skeleton(
     called(progress, "progress")
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
-    failures: list[str] = []
-    for samples in SAMPLES:
-        try:
-            result, failures = _Attempt(geometry, tolerance, samples, tell).result()
-        except MissingCurveError as error:
-            failures = [str(error)]
-            continue
-        if result is not None:
-            return result
-    raise GeometryError(
-        f"the skeleton fails its certificate, with {SAMPLES[-1]} samples too: "
-        + "; ".join(failures)
-    )
+
+    def way(samples: int) -> Way[Skeleton]:
+        attempt = _Attempt(geometry, tolerance, samples, tell)
+        again = (MissingCurveError, CertificateError)
+        return Way(f"seams looked for from {samples} boundary points", attempt.result, again)
+
+    return first_of([way(samples) for samples in SAMPLES])
+
+
+class CertificateError(GeometryError):
+    """A skeleton was made, but not all that is measured on it is as it must be."""
 
 
 class _Attempt:
@@ -89,26 +88,34 @@ class _Attempt:
         self._geometry, self._relative, self._samples = geometry, tolerance, samples
         self._tell = tell
 
-    def result(self) -> tuple[Skeleton | None, list[str]]:
-        """The skeleton, or None and what is wrong with it."""
+    def result(self) -> Skeleton:
+        """The skeleton.
+
+        Raises:
+            CertificateError: it is not sound; says what is wrong.
+            GeometryError: there is none.
+        """
         geometry = self._geometry
         curves = traced(
             geometry, self._samples, lambda what, done: self._tell(what, TRACING * done)
         )
         fineness = fine_enough(geometry, self._relative, SHARE)
-        refused = False
+        refused: list[tuple[str, GeometryError]] = []
         for left in reversed(range(FINENESSES)):
             self._tell("triangulating sheets", TRACING)
             try:
-                draft = drafted(geometry, curves, fineness * geometry.diagonal)
+                with stage("sheets"):
+                    draft = drafted(geometry, curves, fineness * geometry.diagonal)
                 self._tell("refining", 0.7)
-                whole = Whole(geometry, self._relative, fineness, curves, draft)
+                with stage("refining"):
+                    whole = Whole(geometry, self._relative, fineness, curves, draft)
             except MissingCurveError:
                 raise
-            except GeometryError:
-                if refused or not left:
-                    raise
-                refused, fineness = True, finer(fineness, np.full(len(fineness), COARSE))
+            except GeometryError as error:
+                refused.append((f"chords of {fineness.min():.2g} of the size", error))
+                if len(refused) > 1 or not left:
+                    raise first_cause(refused) from None
+                fineness = finer(fineness, np.full(len(fineness), COARSE))
                 continue
             errors = volume_errors(geometry, draft.surface, whole.complex)
             if errors.max() > VOLUME and left:
@@ -119,4 +126,8 @@ class _Attempt:
             if not result.excess.any():
                 break
             fineness = finer(fineness, result.excess)
-        return result.skeleton, result.failures
+        if result.skeleton is None:
+            wrong = "; ".join(result.failures)
+            with stage("certificate"):
+                raise CertificateError(f"the skeleton fails its certificate: {wrong}")
+        return result.skeleton

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.attempts import stage
 from decomp.complex.boundary import BoundaryMesh, boundary_mesh
 from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import ContactError
@@ -78,7 +79,8 @@ def traced(
     curves = []
     for number, boundary in enumerate(geometry.regions):
         tell(f"tracing {boundary.name}", number / len(geometry.regions))
-        curves.append(region_curves(geometry.index, boundary, number, samples))
+        with stage("tracing", boundary.name):
+            curves.append(region_curves(geometry.index, boundary, number, samples))
     return curves
 
 

@@ -6,7 +6,9 @@ into one line on stderr and its `exit_code`.
 
 from __future__ import annotations
 
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from decomp.plain import plain
 
@@ -70,10 +72,47 @@ class UnsupportedError(FileError):
     """A construct lies outside blocks, spheres, cylinders, cones, tori and similarities."""
 
 
+@dataclass(frozen=True)
+class Try:
+    """What was tried, and how it failed.
+
+    Args:
+        what: it was.
+        kind: of the error.
+        error: its text.
+    """
+
+    what: str
+    kind: str
+    error: str
+
+
 class GeometryError(DecompError):
-    """The model is well-formed, but its geometry is not a solid that can be handled."""
+    """The model is well-formed, but its geometry is not a solid that can be handled.
+
+    Attributes:
+        stage: of the work in which it arose: `boundary`, `tracing`, `sheets`, `refining` or
+            `certificate`; empty if unknown.
+        region: the region's name, empty if it is none's or unknown.
+        tries: where several ways were tried, all of them; the error's text is the first one's.
+    """
 
     exit_code = 3
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message)
+        self.stage, self.region = "", ""
+        self.tries: tuple[Try, ...] = ()
+
+    def as_json(self) -> dict[str, Any]:
+        """What is known of it, as JSON values."""
+        return {
+            "kind": type(self).__name__,
+            "error": str(self),
+            "stage": self.stage,
+            "region": self.region,
+            "tries": [asdict(each) for each in self.tries],
+        }
 
 
 class EmptyRegionError(GeometryError):

@@ -7,14 +7,14 @@ domain into components; each is in the skeleton or not, as exact queries inside 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
+from decomp.attempts import Way, first_of
 from decomp.complex.domains import Domain
 from decomp.complex.model import SurfaceElement
 from decomp.complex.planar import (
@@ -159,16 +159,19 @@ class SheetMaker:
         surface = SheetSurface(self._incidence, pair, points, feet)
         drawing = self._domains.drawn(pair, points, feet, surface)
         local = np.searchsorted(used, segments)
-        try:
-            return self._drawn(pair, used, points, local, drawing, surface)
-        except (UnevenError, MissingCurveError, CrossingError, MergedError) as error:
-            if isinstance(error, CrossingError) and not self._finest:
-                raise
-            first = error
-        for other in self._domains.others(pair, points, feet):
-            with suppress(UnevenError, MissingCurveError, CrossingError, MergedError, SparseError):
-                return self._drawn(pair, used, points, local, other, surface)
-        raise first
+        after: tuple[type[GeometryError], ...] = (UnevenError, MissingCurveError, MergedError)
+        if self._finest:
+            after = (*after, CrossingError)
+
+        def way(what: str, other: Drawing, *errors: type[GeometryError]) -> Way[list[SheetPart]]:
+            return Way(what, lambda: self._drawn(pair, used, points, local, other, surface), errors)
+
+        def ways() -> Iterator[Way[list[SheetPart]]]:
+            yield way("drawn in the footprint", drawing, *after)
+            for other in self._domains.others(pair, points, feet):
+                yield way("drawn otherwise", other, *after, CrossingError, SparseError)
+
+        return first_of(ways())
 
     def _drawn(
         self,

@@ -9,9 +9,9 @@ skeleton's certificate the surfaces of all cells must be closed and hold the reg
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
+from decomp.attempts import Way, first_of
 from decomp.boundary.topology import RegionBoundary
 from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.cells.surface import is_closed
@@ -79,11 +79,11 @@ def coarsest(make: Callable[[float], MeshSurface], tolerance: float) -> MeshSurf
     Raises:
         GeometryError: the finest one fails too.
     """
-    for _ in range(FINER_TRIES):
-        with suppress(GeometryError):
-            return make(tolerance)
-        tolerance /= FINER
-    return make(tolerance)
+
+    def way(fine: float) -> Way[MeshSurface]:
+        return Way(f"chords within {fine:.3g}", lambda: make(fine))
+
+    return first_of(way(tolerance / FINER**k) for k in range(FINER_TRIES + 1))
 
 
 class SurfaceMaker:

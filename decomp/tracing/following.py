@@ -49,8 +49,6 @@ LOOKS = 3
 """At so many places of a step it is seen whether feet have left the boundary."""
 LEAST_LOOK, LEAST_WAY = 1e-4, 1e-4
 """Steps, as parts of the size, and ways of feet, as parts of the radius, below which it is not."""
-LATE = 3e-6
-"""An intruder that is as near for longer than this part of the size has joined before."""
 PAST = 1e-9
 """A foot so far beyond its edge's end, as a part of the size, has left it."""
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
@@ -263,6 +261,7 @@ def follow(
     home: Array,
     leave: int,
     closable: bool,
+    latest: float,
 ) -> tuple[int, int, int]:
     """Follow a seam from row 0 of a track.
 
@@ -276,6 +275,7 @@ def follow(
         home: first point and tangent (6,) of the whole seam.
         leave: steps to make before the seam may close.
         closable: whether the seam has the same sites as at `home`.
+        latest: an intruder that is as near for longer than this has joined before.
 
     Returns:
         The number of rows, and why there are no more: FULL, STUCK (no further point with these
@@ -362,7 +362,7 @@ def follow(
                 break
         if change == HOLDS and not rough and not narrowing and length > LEAST_LOOK * size:
             rough = leaves_between(table, probe, which, track, last, trial)
-        late = kind == INTRUDED and high - length > LATE * size
+        late = kind == INTRUDED and high - length > latest
         if change == HOLDS and not rough and (not narrowing or kind == JOINED or late):
             first = trial * count
             if another(probe, x, y, z, radius, track.feet, first, count):

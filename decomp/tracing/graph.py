@@ -8,10 +8,9 @@ that the face's maximal balls touch on their far side changes with a jump, a sea
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 import numpy as np
 
+from decomp.attempts import Way, first_of
 from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
@@ -60,11 +59,18 @@ def seam_graph(
     Raises:
         GeometryError: a seam cannot be followed; says where.
     """
-    with suppress(GeometryError):  # whatever it is, a step too long can be why
-        return _seam_graph(_Grower(index, boundary, region, LONGEST[0]), samples, seed)
-    with suppress(OversteppedError):
-        return _seam_graph(_Grower(index, boundary, region, LONGEST[1]), samples, seed)
-    return _seam_graph(_Grower(index, boundary, region, LONGEST[-1]), samples, seed)
+
+    def way(longest: float, *after: type[GeometryError]) -> Way[SeamGraph]:
+        def run() -> SeamGraph:
+            return _seam_graph(_Grower(index, boundary, region, longest), samples, seed)
+
+        return Way(f"steps of at most {longest:g} of the size", run, after)
+
+    # whatever it is, a step too long can be why
+    long, middle, short = LONGEST
+    return first_of(
+        [way(long, GeometryError), way(middle, OversteppedError), way(short)],
+    )
 
 
 def _seam_graph(grower: _Grower, samples: int, seed: int) -> SeamGraph:

@@ -49,13 +49,13 @@ class SeamStops:
         state = self._exactly(state)
         return stretch.cut(base, state, self._size), state
 
-    def joining(self, stretch: Stretch, count: int) -> tuple[int, State]:
+    def joining(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where a further contact joins those of a seam, near the last of `count` rows.
 
         Up to there the distance to it is greater in second order, so that its foot, too, passes to
         another site there, or the foot of a contact that it was one with. Behind it feet may stay
         on the walls of their sites, where rounding tells on which side. So the first of all
-        crossings is the one.
+        crossings is the one. None if there is none.
         """
         beyond = stretch.state(count)
         touching = self._points.contacts.at(beyond.point, 1e-10 * self._size)
@@ -71,7 +71,7 @@ class SeamStops:
                 if ahead < first:
                     first, best = ahead, (base, state)
         if best is None:
-            return count, stretch.state(count - 1)
+            return None
         return stretch.cut(best[0], best[1], self._size), best[1]
 
     def fin(self, stretch: Stretch, count: int) -> tuple[int, State]:

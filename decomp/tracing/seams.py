@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -29,6 +30,8 @@ MERGED = 1e-3
 MERGING = 2e-2
 """Feet on one site nearer than this part of the radius may be about to run together."""
 MET = 1e-6
+LATE = 3e-6
+"""An intruder that is as near for longer than this part of the size has joined the seam before."""
 
 
 class SeamTracer:
@@ -61,17 +64,14 @@ class SeamTracer:
             stretch = Stretch(here.sites, ROOM)
             stretch.put(0, here)
             same = here.sites == start.sites
-            count, why, contact = follow(
-                points.table,
-                self._probe,
-                stretch.which,
-                stretch.track,
-                size,
-                self._longest,
-                home,
-                steps,
-                same,
-            )
+            given = points.table, self._probe, stretch.which, stretch.track, size
+            rest = self._longest, home, steps, same
+            count, why, contact = follow(*given, *rest, LATE * size)
+            joined = self._stops.joining(stretch, count) if why == JOINED else None
+            if why == JOINED and joined is None:
+                # nothing tells where it joined: the place from which it is nearer is the one
+                count, why, contact = follow(*given, *rest, inf)
+                joined = self._stops.joining(stretch, count) if why == JOINED else None
             steps += count - 1
             last = stretch.state(count - 1)
             if why in (STUCK, INTRUDED, JOINED) and _about_to_merge(last):
@@ -111,7 +111,7 @@ class SeamTracer:
                     runs.append(stretch.run(count))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
             elif why == JOINED:
-                kept, at = self._stops.joining(stretch, count)
+                kept, at = joined or (count, last)
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             crossed = self._stops.crossing(stretch, count, contact)
