@@ -266,7 +266,8 @@ class TrimScanner:
     ) -> list[list[tuple[_Sample, _Sample]]]:
         """For each curve the narrowest intervals in which the far contact changes."""
         found: list[list[tuple[_Sample, _Sample]]] = [[] for _ in curves]
-        wide = [(k, a, b) for k, row in enumerate(samples) for a, b in pairwise(row)]
+        rows = [_without_ties(row) for row in samples]
+        wide = [(k, a, b) for k, row in enumerate(rows) for a, b in pairwise(row)]
         for depth in range(HALVINGS + 1):
             changing = [(k, a, b) for k, a, b in wide if a.far != b.far]
             wide = []
@@ -277,16 +278,14 @@ class TrimScanner:
                 else:
                     halved.append((k, a, b))
             for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
-                # a contact that holds both is the change itself, to the tolerance of contacts
-                if middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far):
-                    if middle.site in a.far and middle.site not in b.far:
-                        wide.append((k, replace(middle, far=a.far), b))
-                    elif middle.site in b.far and middle.site not in a.far:
-                        wide.append((k, a, replace(middle, far=b.far)))
-                    else:
-                        found[k].append((a, b))
-                else:
+                if not _ties(a, middle, b):
                     wide += [(k, a, middle), (k, middle, b)]
+                    continue
+                one = _one_of(a, middle, b)
+                if one is None:
+                    found[k].append((a, b))
+                else:
+                    wide.append((k, one, b) if one.far == a.far else (k, a, one))
         for pairs in found:
             pairs.sort(key=lambda pair: pair[0].s)
         return found
@@ -348,6 +347,35 @@ def _continue_to_ends(samples: list[_Sample]) -> None:
             inner = samples[k + 1] if order.step < 0 else samples[k - 1]
             if samples[k].site == inner.site and inner.site in inner.far:
                 samples[k] = replace(samples[k], far=inner.far)
+
+
+def _ties(a: _Sample, middle: _Sample, b: _Sample) -> bool:
+    """Whether a sample's contact holds those of both its neighbours.
+
+    It is the change itself then, to the tolerance of contacts.
+    """
+    return middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far)
+
+
+def _one_of(a: _Sample, middle: _Sample, b: _Sample) -> _Sample | None:
+    """A sample that ties two contacts with the one that holds its site, None if both do."""
+    if a.far == b.far or (middle.site in a.far and middle.site not in b.far):
+        return replace(middle, far=a.far)
+    if middle.site in b.far and middle.site not in a.far:
+        return replace(middle, far=b.far)
+    return None
+
+
+def _without_ties(samples: Sequence[_Sample]) -> list[_Sample]:
+    """First samples, of which none happens to be where the contact changes."""
+    found = [samples[0]]
+    for k in range(1, len(samples) - 1):
+        here: _Sample | None = samples[k]
+        if _ties(found[-1], samples[k], samples[k + 1]):
+            here = _one_of(found[-1], samples[k], samples[k + 1])
+        if here is not None:
+            found.append(here)
+    return [*found, samples[-1]]
 
 
 def _first(curve: NormalCurve) -> Array:
