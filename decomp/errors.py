@@ -104,6 +104,12 @@ class GeometryError(DecompError):
         self.stage, self.region = "", ""
         self.tries: tuple[Try, ...] = ()
 
+    def advised(self, advice: str) -> GeometryError:
+        """The same error with what to do about it at its end."""
+        result = GeometryError(f"{self}; {advice}")
+        result.stage, result.region, result.tries = self.stage, self.region, self.tries
+        return result
+
     def as_json(self) -> dict[str, Any]:
         """What is known of it, as JSON values."""
         return {

@@ -130,7 +130,7 @@ def _prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) 
     except GeometryError as error:
         if cells == "none":
             raise
-        raise GeometryError(f"{error}; '--cells none' makes a mesh without cells") from error
+        raise error.advised("'--cells none' makes a mesh without cells") from error
 
 
 def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints]:

@@ -11,7 +11,7 @@ from typing import NoReturn
 from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
 from decomp.cli.ending import EndedError, endings, leave
 from decomp.cli.printed import ReaderGoneError, complain, printing
-from decomp.errors import DecompError
+from decomp.errors import DecompError, GeometryError
 from decomp.tetra.workplace import sweep
 
 EXAMPLES = """\
@@ -44,6 +44,12 @@ def parser() -> argparse.ArgumentParser:
     commands = result.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     for module in COMMANDS:
         module.register(commands)
+    for command in dict.fromkeys(commands.choices.values()):
+        command.add_argument(
+            "--verbose",
+            action="store_true",
+            help="where a skeleton fails, tell of all that was tried",
+        )
     return result
 
 
@@ -57,11 +63,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         0 on success, 1 to 4 for errors (see `decomp.errors`), 130 when interrupted, 128 + n when
         ended by signal n.
     """
+    verbose = False
     try:
         with printing():
-            return _run(parser().parse_args(arguments))
+            options = parser().parse_args(arguments)
+            verbose = getattr(options, "verbose", False)
+            return _run(options)
     except DecompError as error:
         complain(f"decomp: error: {error}")
+        if verbose and isinstance(error, GeometryError):
+            for line in tried(error):
+                complain(line)
         return error.exit_code
     except KeyboardInterrupt:
         complain("decomp: interrupted")
@@ -71,6 +83,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return end.exit_code
     except ReaderGoneError:
         return 0
+
+
+def tried(error: GeometryError) -> list[str]:
+    """Where an error arose, and all that was tried, a line each."""
+    where = [f"in {error.stage}"] if error.stage else []
+    where += [f"region {error.region}"] if error.region else []
+    lines = [f"  {', '.join(where)}"] if where else []
+    return lines + [f"  tried: {each.what}: {each.kind}: {each.error}" for each in error.tries]
 
 
 def _run(options: argparse.Namespace) -> int:

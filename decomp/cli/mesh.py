@@ -149,7 +149,7 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
-    from decomp.errors import InputError
+    from decomp.errors import GeometryError, InputError
     from decomp.files.suffixes import known_suffix
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
@@ -175,17 +175,25 @@ def run(options: argparse.Namespace) -> None:
             known_suffix(path, (suffix,), what)
     others = [path for path, *_ in more if path is not None]
     check_outputs([*outputs, *others], [options.model])
-    mesh, figures = meshed(options)
+    try:
+        mesh, figures = meshed(options)
+    except GeometryError as error:
+        if options.report is not None:
+            write_whole(options.report, _as_bytes({"failed": error.as_json()}))
+        raise
     written(mesh, options, outputs)
     if options.report is not None:
-        text = json.dumps(as_json(figures), indent=1, ensure_ascii=False) + "\n"
-        write_whole(options.report, text.encode())
+        write_whole(options.report, _as_bytes(as_json(figures)))
     if options.html is not None:
         from decomp.view import report_page
 
         write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
         say([*as_text(figures), f"  written: {', '.join(str(path) for path in outputs)}"])
+
+
+def _as_bytes(values: dict[str, Any]) -> bytes:
+    return (json.dumps(values, indent=1, ensure_ascii=False) + "\n").encode()
 
 
 def _default(model: Path) -> Path:

@@ -15,7 +15,7 @@ import numpy as np
 
 from decomp.complex.refine_elements import Elements
 from decomp.tetra.collapsing import collapsed
-from decomp.tetra.faces import faces_of
+from decomp.tetra.faces import faces_of, is_complex
 from decomp.tetra.filling import filled
 from decomp.tetra.flipping import flipped
 from decomp.tetra.layout import Layout
@@ -114,23 +114,36 @@ def _mended(
     tagged: Tagged,
     finder: Finder,
 ) -> tuple[Array, Ints, Ints] | None:
-    """Change tetrahedra at nodes that have no room where they belong; None if none could be."""
+    """Change tetrahedra at nodes that have no room where they belong; None if none could be.
+
+    Where TetWild has left a dent, a change can lead across it onto tetrahedra that are there: it is
+    not made.
+    """
     near = _around(tets, left)
     around = points, tets[near], part[near], left
     tagged = tagged.at(tets[near])
-    found = filled(*around, tagger.parts_at)
-    if found is None:
+
+    def put_back() -> tuple[Array, Ints, Ints] | None:
+        found = filled(*around, tagger.parts_at)
+        return None if found is None else (points, *found)
+
+    def merged() -> tuple[Array, Ints, Ints] | None:
         found = collapsed(*around, finder.kinds(tagged))
-    if found is not None:
-        new, parts = found
-    else:
-        lifted = separated(*around, tagger.owner(tagged, left), tagger.parts_at)
-        if lifted is None:
-            return None
-        points, new, parts = lifted
-    tets, part = np.concatenate([tets[~near], new]), np.concatenate([part[~near], parts])
-    used = np.unique(tets)
-    return points[used], np.searchsorted(used, tets), part
+        return None if found is None else (points, *found)
+
+    def lifted() -> tuple[Array, Ints, Ints] | None:
+        return separated(*around, tagger.owner(tagged, left), tagger.parts_at)
+
+    for change in (put_back, merged, lifted):
+        found = change()
+        if found is None:
+            continue
+        whole = np.concatenate([tets[~near], found[1]])
+        if is_complex(whole):
+            used = np.unique(whole)
+            parts = np.concatenate([part[~near], found[2]])
+            return found[0][used], np.searchsorted(used, whole), parts
+    return None
 
 
 def _around(tets: Ints, nodes: Ints) -> Bools:

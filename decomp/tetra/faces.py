@@ -54,6 +54,12 @@ def faces_of(tets: Ints) -> Faces:
     return Faces(every[order[first]], np.stack([owner[order[first]], other], axis=1))
 
 
+def is_complex(tets: Ints) -> bool:
+    """Whether each triangle of tetrahedra (m, 4) belongs to two of them at most."""
+    keys = np.sort(_keys(tets[:, OPPOSITE].reshape(-1, 3)))
+    return not bool((keys[2:] == keys[:-2]).any())
+
+
 def _keys(triangles: Ints) -> Ints:
     """A number (k,) for each triangle (k, 3), whatever the order of its vertices.
 

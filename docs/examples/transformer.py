@@ -38,7 +38,7 @@ OUTSIDE = [f"tank/tank.orthobrick1.{side}" for side in ("xmin", "xmax", "ymax", 
 GIVES = [
     f"primary/{face}"
     for face in (
-        "top|oil/top@2",
+        "top|oil/top",
         *(f"primary.cylinder{k}.side|oil/primary.cylinder{k}.side" for k in (1, 2)),
     )
 ]
