@@ -1,0 +1,245 @@
+"""The walls between labels with their vertices exactly where their sites are equally near.
+
+1. A wall's vertex next to a boundary node at which its sites meet is that node.
+2. Others start where the nearest site changes along edges, or between such places, and are moved
+   to where all their sites are equally near. Sites that turn out to be nearer join in.
+3. Vertices with the same sites in one tetrahedron become one where that closes up what is thinner
+   than the tetrahedra are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.sampled.bisecting import Bisected
+from decomp.sampled.crossings import crossings
+from decomp.sampled.labels import Labels
+from decomp.sampled.marching import Walls, walls
+from decomp.sampled.placing import Placer
+from decomp.tracing.queries import RegionQueries
+from decomp.vectors import Array, Bools, Ints, norm
+
+NEARER = 1e-10
+"""A site that is nearer, or takes over from another, by this part of the size joins in."""
+MOST = 6
+"""So many sites at most are as near to one vertex."""
+FAR = 1.5
+"""A vertex is moved no farther than so many of the longest edges around it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Extracted:
+    """Walls of one region.
+
+    Args:
+        points: (v, 3) of their vertices.
+        radius: (v,) distance from the boundary.
+        node: (v,) the boundary node that a vertex is, -1 for those inside.
+        sites: of each vertex, all that are as near.
+        triangles: (t, 3) vertices, all different.
+        between: (t, 2) sites on both sides, lower first; normals point from it to the other.
+        tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
+        lost: (v,) vertices that could not be placed well.
+    """
+
+    points: Array
+    radius: Array
+    node: Ints
+    sites: list[tuple[int, ...]]
+    triangles: Ints
+    between: Ints
+    tet: Ints
+    lost: Bools
+
+
+class Extractor:
+    """Extracts walls from one region's tetrahedra.
+
+    Args:
+        queries: of the region.
+        placer: of the region.
+        owner: the face that owns each site.
+        size: the region's diagonal.
+    """
+
+    def __init__(
+        self, queries: RegionQueries, placer: Placer, owner: dict[int, int], size: float
+    ) -> None:
+        self._queries, self._placer = queries, placer
+        self._owner, self._size = owner, size
+
+    def extracted(self, mesh: Bisected, labels: Labels, region: int) -> Extracted:
+        """The walls of a region."""
+        found = walls(mesh.tets[mesh.region == region], labels.site)
+        count = len(found.corners)
+        node: Ints = np.full(count, -1, dtype=np.int64)
+        sites = [
+            tuple(sorted({int(labels.site[c]) for c in row if c >= 0}))
+            for row in found.corners.tolist()
+        ]
+        for vertex, row in enumerate(found.corners.tolist()):
+            for corner in row:
+                if corner in labels.touching and labels.touching[corner] >= set(sites[vertex]):
+                    node[vertex] = corner
+                    break
+        points = np.zeros((count, 3))
+        points[node >= 0] = mesh.points[node[node >= 0]]
+        reach = self._reach(mesh.points, found.corners)
+        self._start(mesh.points, labels, found, node, points, sites)
+        free = np.flatnonzero(node < 0)
+        radius, lost = np.zeros(count), np.zeros(count, dtype=np.bool_)
+        self._settle(free, points, sites, radius, lost, reach)
+        for vertex in np.flatnonzero(node >= 0).tolist():
+            sites[vertex] = tuple(sorted(labels.at(int(node[vertex]))))
+        return self._joined(found, points, radius, node, sites, lost)
+
+    @staticmethod
+    def _reach(points: Array, corners: Ints) -> Array:
+        """The longest edge (v,) between the corners of each vertex."""
+        at = points[np.where(corners >= 0, corners, corners[:, :1])]
+        return np.asarray(norm(at[:, :, None] - at[:, None]).max(axis=(1, 2)))
+
+    def _start(
+        self,
+        nodes: Array,
+        labels: Labels,
+        found: Walls,
+        node: Ints,
+        points: Array,
+        sites: list[tuple[int, ...]],
+    ) -> None:
+        """Put vertices roughly in their places."""
+        many = (found.corners >= 0).sum(axis=1)
+        on_edges = np.flatnonzero((many == 2) & (node < 0))
+        ends = found.corners[on_edges, :2]
+        alone = np.array([k not in labels.touching for k in ends.reshape(-1).tolist()])
+        known = alone.reshape(-1, 2).all(axis=1) if len(ends) else np.zeros(0, dtype=np.bool_)
+        made = crossings(self._queries, nodes[ends], labels.site[ends], known)
+        points[on_edges] = made.points
+        for row in np.flatnonzero(made.third >= 0).tolist():
+            vertex = int(on_edges[row])
+            sites[vertex] = tuple(sorted({*sites[vertex], int(made.third[row])}))
+        edge = {tuple(row[:2]): k for k, row in enumerate(found.corners.tolist()) if row[2] < 0}
+        for vertex in np.flatnonzero((many > 2) & (node < 0)).tolist():
+            row = [c for c in found.corners[vertex].tolist() if c >= 0]
+            around = [edge[a, b] for k, a in enumerate(row) for b in row[k + 1 :] if (a, b) in edge]
+            points[vertex] = points[around].mean(axis=0)
+
+    def _settle(
+        self,
+        free: Ints,
+        points: Array,
+        sites: list[tuple[int, ...]],
+        radius: Array,
+        lost: Bools,
+        reach: Array,
+    ) -> None:
+        """Place vertices exactly; sites that are nearer join in."""
+        start = np.array(points)
+        left = free
+        for _ in range(MOST):
+            groups: dict[tuple[int, ...], list[int]] = {}
+            for vertex in left.tolist():
+                groups.setdefault(sites[vertex], []).append(vertex)
+            for own, members in groups.items():
+                rows = np.array(members, dtype=np.int64)
+                placed = self._placer.place(self._active(own), start[rows])
+                good = placed.good & (norm(placed.points - start[rows]) <= FAR * reach[rows])
+                points[rows] = np.where(good[:, None], placed.points, start[rows])
+                radius[rows] = placed.radius
+                lost[rows] = ~good
+            again = []
+            found = self._queries.nearest(points[left])
+            gap = np.abs(radius[left] - found.distance)
+            for row in np.flatnonzero(gap > NEARER * self._size).tolist():
+                vertex, nearer = int(left[row]), int(found.site[row])
+                if self._flat(sites[vertex]):
+                    continue
+                if nearer < 0 or lost[vertex] or nearer in sites[vertex]:
+                    lost[vertex] = True
+                elif len(sites[vertex]) >= MOST:
+                    lost[vertex] = True
+                else:
+                    sites[vertex] = tuple(sorted({*sites[vertex], nearer}))
+                    again.append(vertex)
+            left = np.array(again, dtype=np.int64)
+            if not len(left):
+                break
+        lost[left] = True
+        flat = [vertex for vertex in free.tolist() if self._flat(sites[vertex])]
+        radius[flat] = self._queries.depth(points[flat])[1]
+
+    def _flat(self, sites: tuple[int, ...]) -> bool:
+        """Whether all sites share one foot, so that there is no skeleton."""
+        return len(self._placer.contacts(sites)) == 1
+
+    def _active(self, sites: tuple[int, ...]) -> tuple[int, ...]:
+        """The sites that a vertex is placed between.
+
+        Where all share a foot only what parts the cells of different faces counts.
+        """
+        if not self._flat(sites) or len(sites) <= 2:
+            return sites
+        for k, a in enumerate(sites):
+            for b in sites[k + 1 :]:
+                if self._owner[a] != self._owner[b] and self._placer.takes_over(a, b):
+                    return (a, b)
+        return sites
+
+    def _joined(
+        self,
+        found: Walls,
+        points: Array,
+        radius: Array,
+        node: Ints,
+        sites: list[tuple[int, ...]],
+        lost: Bools,
+    ) -> Extracted:
+        """Make vertices one that are one node, or have joined others' sites."""
+        plain = [
+            tuple(sorted(set(row))) for row in found.corners.tolist()
+        ]
+        parent = np.arange(len(points))
+
+        def root(k: int) -> int:
+            while parent[k] != k:
+                parent[k] = parent[parent[k]]
+                k = int(parent[k])
+            return k
+
+        first: dict[int, int] = {}
+        for vertex in np.flatnonzero(node >= 0).tolist():
+            parent[vertex] = first.setdefault(int(node[vertex]), vertex)
+        many = (found.corners >= 0).sum(axis=1)
+        around: dict[tuple[int, ...], list[int]] = {}
+        for vertex in np.flatnonzero((many == 3) & (node < 0)).tolist():
+            row = plain[vertex][-3:]
+            for pair in ((row[0], row[1]), (row[0], row[2]), (row[1], row[2])):
+                around.setdefault(pair, []).append(vertex)
+        for vertex in np.flatnonzero((many == 2) & (node < 0)).tolist():
+            if len(sites[vertex]) > 2 and not self._flat(sites[vertex]):
+                same = [
+                    k
+                    for k in around.get(plain[vertex][-2:], [])
+                    if sites[k] == sites[vertex] and not lost[k]
+                ]
+                if same:
+                    away = norm(points[same] - points[vertex])
+                    parent[root(vertex)] = root(same[int(np.argmin(away))])
+        top = np.array([root(k) for k in range(len(points))])
+        triangles = top[found.triangles]
+        a, b, c = triangles.T
+        kept = (a != b) & (b != c) & (c != a)
+        used, which = np.unique(triangles[kept], return_inverse=True)
+        return Extracted(
+            points[used],
+            radius[used],
+            node[used],
+            [sites[k] for k in used.tolist()],
+            which.reshape(-1, 3),
+            found.between[kept],
+            found.tet[kept],
+            lost[used],
+        )

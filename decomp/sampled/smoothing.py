@@ -1,0 +1,92 @@
+"""Walls without folds: their vertices are moved to the middle of their neighbours, and placed again.
+
+What lies on a line moves along it; boundaries and the ends of lines stay.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from decomp.complex.errors_of import triangle_errors
+from decomp.complex.model import Complex
+from decomp.complex.refine_elements import Elements
+from decomp.errors import GeometryError
+from decomp.vectors import Array, Bools, Ints
+
+ROUNDS, LEAST = 40, 4
+"""Rounds at most, and at least."""
+SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+
+
+def unfolded(given: Complex, fixed: int) -> Complex:
+    """Smooth a complex until no triangle is folded, or for so many rounds.
+
+    Args:
+        given: with all its vertices in their places.
+        fixed: so many of its patches, the first, stay as they are.
+    """
+    elements = Elements(given)
+    triangles = np.concatenate([patch.triangles for patch in given.patches])
+    patch = np.repeat(np.arange(len(given.patches)), [len(p.triangles) for p in given.patches])
+    element, pairs = _movable(given, elements, triangles, patch, fixed)
+    moving = np.flatnonzero(element >= 0)
+    points = np.array(given.points)
+    inner = patch >= fixed
+    own, numbers = triangles[inner], elements.of_patch[patch[inner]]
+    for round_ in range(ROUNDS):
+        if round_ >= LEAST and not _folded(elements, numbers, points[own]).any():
+            break
+        wanted = _middles(points, pairs)[moving]
+        try:
+            points[moving] = elements.place(element[moving], wanted)
+        except GeometryError:
+            # one that has no place there keeps all others from moving: each for itself
+            for row, node in enumerate(moving.tolist()):
+                points[node] = _one(elements, int(element[node]), wanted[row], points[node])
+    return replace(given, points=points)
+
+
+def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Array:
+    try:
+        return np.asarray(elements.place(np.array([element]), wanted[None])[0])
+    except GeometryError:
+        return before
+
+
+def _folded(elements: Elements, numbers: Ints, corners: Array) -> Bools:
+    return np.asarray(triangle_errors(elements, numbers, corners)[1] <= 0)
+
+
+def _movable(
+    given: Complex, elements: Elements, triangles: Ints, patch: Ints, fixed: int
+) -> tuple[Ints, Ints]:
+    """The element (n,) that each point moves on, -1 for none, and pairs (k, 2): who moves where."""
+    element: Ints = np.full(len(given.points), -1, dtype=np.int64)
+    element[triangles] = elements.of_patch[patch][:, None]
+    on_line = np.zeros(len(given.points), dtype=np.int64)
+    along = []
+    for number, line in enumerate(given.lines):
+        closed = bool(line.vertices[0] == line.vertices[-1])
+        on_line[line.vertices[:-1] if closed else line.vertices] += 1
+        element[line.vertices] = elements.of_line[number]
+        along.append(np.stack([line.vertices[:-1], line.vertices[1:]], axis=1))
+        if not closed:
+            element[line.vertices[[0, -1]]] = -1
+            on_line[line.vertices[[0, -1]]] = 2
+    element[on_line > 1] = -1
+    element[triangles[patch < fixed]] = -1
+    segments = np.concatenate([np.empty((0, 2), dtype=np.int64), *along])
+    sides = np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)
+    inside = np.concatenate([sides, sides[:, ::-1]])
+    inside = inside[on_line[inside[:, 0]] == 0]
+    return element, np.concatenate([inside, segments, segments[:, ::-1]])
+
+
+def _middles(points: Array, pairs: Ints) -> Array:
+    """The mean (n, 3) of each point's neighbours."""
+    total = np.zeros_like(points)
+    np.add.at(total, pairs[:, 0], points[pairs[:, 1]])
+    many = np.bincount(pairs[:, 0], minlength=len(points))
+    return np.asarray(total / np.maximum(many, 1)[:, None])
