@@ -62,13 +62,20 @@ class Bisected:
             left = self._halve(edges, which, self._leading(which, longest, left), left)
         raise GeometryError("the refinement of tetrahedra does not end")
 
-    def halve(self, edges: Ints, which: Ints, wanted: Bools) -> None:
-        """Halve some of the edges (e,): of those that share a tetrahedron only one."""
+    def halve(self, edges: Ints, which: Ints, wanted: Bools, at: Array | None = None) -> None:
+        """Cut some of the edges (e,) in two: of those that share a tetrahedron only one.
+
+        Args:
+            edges, which: of `edges()`.
+            wanted: (e,) which to cut.
+            at: (e, 3) where, in their middles if not given; for edges inside regions only.
+        """
         rank = np.where(wanted, np.arange(len(wanted)) + 1, 0)
         best = rank[which].max(axis=1)
         beaten = np.zeros(len(wanted), dtype=np.bool_)
         beaten[which[(rank[which] > 0) & (rank[which] < best[:, None])]] = True
-        self._halve(edges, which, wanted & ~beaten, np.zeros(len(self.tets), dtype=np.bool_))
+        none = np.zeros(len(self.tets), dtype=np.bool_)
+        self._halve(edges, which, wanted & ~beaten, none, at)
 
     @staticmethod
     def _leading(which: Ints, longest: Ints, wanted: Bools) -> Bools:
@@ -85,10 +92,12 @@ class Bisected:
         other[which[which != longest[:, None]]] = True
         return np.asarray(target & ~other)
 
-    def _halve(self, edges: Ints, which: Ints, chosen: Bools, left: Bools) -> Bools:
+    def _halve(
+        self, edges: Ints, which: Ints, chosen: Bools, left: Bools, at: Array | None = None
+    ) -> Bools:
         """Halve edges (e,) of which no two share a tetrahedron; what is left of a mask (m,)."""
         some = np.flatnonzero(chosen)
-        middle = self._middles(edges[some])
+        middle = self._middles(edges[some]) if at is None else at[some]
         number = np.full(len(edges), -1, dtype=np.int64)
         number[some] = len(self.points) + np.arange(len(some))
         before = len(self.points)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.tracing.queries import RegionQueries
-from decomp.vectors import Array, Ints, norm
+from decomp.vectors import Array, Ints
 
 HALVINGS = 12
 """How often the place of a change is halved."""
@@ -28,14 +28,13 @@ class Crossings:
     third: Ints
 
 
-def crossings(queries: RegionQueries, ends: Array, labels: Ints, known: Array) -> Crossings:
+def crossings(queries: RegionQueries, ends: Array, labels: Ints) -> Crossings:
     """Find the changes along edges.
 
     Args:
         queries: of the region.
         ends: (k, 2, 3) of the edges.
         labels: (k, 2) of their ends.
-        known: (k,) whether both ends are inside, so that their labels are theirs alone.
     """
     start, way = ends[:, 0], ends[:, 1] - ends[:, 0]
     found = []
@@ -53,5 +52,4 @@ def crossings(queries: RegionQueries, ends: Array, labels: Ints, known: Array) -
     points = start + middle[:, None] * way
     site = np.asarray(queries.nearest(points).site, dtype=np.int64)
     between = (high - low > DIRECT / 2**HALVINGS) & (site[:, None] != labels).all(axis=1)
-    between &= known | (norm(way) > 0)
     return Crossings(points, np.where(between, site, -1))

@@ -12,8 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-
 from decomp.sampled.bisecting import Bisected
+from decomp.sampled.contacts import links
+from decomp.sampled.contracting import contracted, thin
 from decomp.sampled.crossings import crossings
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
@@ -21,11 +22,14 @@ from decomp.sampled.placing import Placer
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
+SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 NEARER = 1e-10
 """A site that is nearer, or takes over from another, by this part of the size joins in."""
+ONE = 1e-10
+"""Vertices closer than this part of the size are one."""
 MOST = 6
 """So many sites at most are as near to one vertex."""
-FAR = 1.5
+FAR = 2.0
 """A vertex is moved no farther than so many of the longest edges around it."""
 
 
@@ -40,6 +44,7 @@ class Extracted:
         sites: of each vertex, all that are as near.
         triangles: (t, 3) vertices, all different.
         between: (t, 2) sites on both sides, lower first; normals point from it to the other.
+        links: (t, 2) on trim surfaces the sites of which one takes over, -1 on sheets.
         tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
         lost: (v,) vertices that could not be placed well.
     """
@@ -50,6 +55,7 @@ class Extracted:
     sites: list[tuple[int, ...]]
     triangles: Ints
     between: Ints
+    links: Ints
     tet: Ints
     lost: Bools
 
@@ -95,6 +101,40 @@ class Extractor:
             sites[vertex] = tuple(sorted(labels.at(int(node[vertex]))))
         return self._joined(found, points, radius, node, sites, lost)
 
+    def _one(
+        self,
+        points: Array,
+        sites: list[tuple[int, ...]],
+        triangles: Ints,
+        raised: Bools,
+        lost: Bools,
+    ) -> Ints:
+        """Edges (k, 2) between vertices at one place, or of which one has joined the other's sites.
+
+        Args:
+            points, sites: of the vertices.
+            triangles: (t, 3).
+            raised: (v,) vertices inside that others' sites have joined.
+            lost: (v,) vertices that are not in their places.
+        """
+        sides = np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1)
+        edges = np.unique(sides, axis=0)
+        edges = edges[~lost[edges].any(axis=1)]
+        length = norm(points[edges[:, 0]] - points[edges[:, 1]])
+        same = length <= ONE * self._size
+        done = np.array(~raised)
+        for row in np.argsort(length, kind="stable").tolist():
+            a, b = edges[row].tolist()
+            if not (done[a] and done[b]) and sites[a] == sites[b] and not self._flat(sites[a]):
+                same[row] = True
+                done[[a, b]] = True
+        return np.asarray(edges[same])
+
+    def _links(
+        self, sites: list[tuple[int, ...]], node: Ints, triangles: Ints, between: Ints
+    ) -> Ints:
+        return links(self._placer, self._owner, sites, node, triangles, between)
+
     @staticmethod
     def _reach(points: Array, corners: Ints) -> Array:
         """The longest edge (v,) between the corners of each vertex."""
@@ -114,9 +154,7 @@ class Extractor:
         many = (found.corners >= 0).sum(axis=1)
         on_edges = np.flatnonzero((many == 2) & (node < 0))
         ends = found.corners[on_edges, :2]
-        alone = np.array([k not in labels.touching for k in ends.reshape(-1).tolist()])
-        known = alone.reshape(-1, 2).all(axis=1) if len(ends) else np.zeros(0, dtype=np.bool_)
-        made = crossings(self._queries, nodes[ends], labels.site[ends], known)
+        made = crossings(self._queries, nodes[ends], labels.site[ends])
         points[on_edges] = made.points
         for row in np.flatnonzero(made.third >= 0).tolist():
             vertex = int(on_edges[row])
@@ -178,13 +216,19 @@ class Extractor:
     def _active(self, sites: tuple[int, ...]) -> tuple[int, ...]:
         """The sites that a vertex is placed between.
 
-        Where all share a foot only what parts the cells of different faces counts.
+        Where all share a foot only what parts the cells of different faces counts. On the normal
+        of a face at a vertex of it that and the edges there meet.
         """
-        if not self._flat(sites) or len(sites) <= 2:
+        if len(sites) <= 2 or not self._flat(sites):
             return sites
+        placer = self._placer
+        for a in sites:
+            for b in sites:
+                if placer.on_normal(a, b):
+                    return tuple(s for s in sites if s in (a, b) or not placer.is_face(s))
         for k, a in enumerate(sites):
             for b in sites[k + 1 :]:
-                if self._owner[a] != self._owner[b] and self._placer.takes_over(a, b):
+                if self._owner[a] != self._owner[b] and placer.takes_over(a, b):
                     return (a, b)
         return sites
 
@@ -197,42 +241,34 @@ class Extractor:
         sites: list[tuple[int, ...]],
         lost: Bools,
     ) -> Extracted:
-        """Make vertices one that are one node, or have joined others' sites."""
-        plain = [
-            tuple(sorted(set(row))) for row in found.corners.tolist()
-        ]
-        parent = np.arange(len(points))
-
-        def root(k: int) -> int:
-            while parent[k] != k:
-                parent[k] = parent[parent[k]]
-                k = int(parent[k])
-            return k
-
+        """Make vertices one that are one node, and contract what has no width."""
         first: dict[int, int] = {}
+        top = np.arange(len(points))
         for vertex in np.flatnonzero(node >= 0).tolist():
-            parent[vertex] = first.setdefault(int(node[vertex]), vertex)
-        many = (found.corners >= 0).sum(axis=1)
-        around: dict[tuple[int, ...], list[int]] = {}
-        for vertex in np.flatnonzero((many == 3) & (node < 0)).tolist():
-            row = plain[vertex][-3:]
-            for pair in ((row[0], row[1]), (row[0], row[2]), (row[1], row[2])):
-                around.setdefault(pair, []).append(vertex)
-        for vertex in np.flatnonzero((many == 2) & (node < 0)).tolist():
-            if len(sites[vertex]) > 2 and not self._flat(sites[vertex]):
-                same = [
-                    k
-                    for k in around.get(plain[vertex][-2:], [])
-                    if sites[k] == sites[vertex] and not lost[k]
-                ]
-                if same:
-                    away = norm(points[same] - points[vertex])
-                    parent[root(vertex)] = root(same[int(np.argmin(away))])
-        top = np.array([root(k) for k in range(len(points))])
-        triangles = top[found.triangles]
-        a, b, c = triangles.T
-        kept = (a != b) & (b != c) & (c != a)
-        used, which = np.unique(triangles[kept], return_inverse=True)
+            top[vertex] = first.setdefault(int(node[vertex]), vertex)
+        triangles, kept = _proper(top[found.triangles])
+        narrow = thin(points, sites, triangles, self._placer)
+        linked = self._links(sites, node, triangles, found.between[kept])
+        import os
+        if os.environ.get("DBG"):
+            def eul(t, l):
+                t=np.unique(np.sort(t[l[:,0]<0],axis=1),axis=0)
+                e=np.unique(np.sort(t[:,[[0,1],[1,2],[2,0]]].reshape(-1,2),axis=1),axis=0)
+                return len(np.unique(t))-len(e)+len(t)
+            print("before contraction", eul(triangles, linked))
+        # what lies between two sites may be missing from the labels, but the two do not touch
+        narrow |= (linked[:, 0] >= 0) & (linked != found.between[kept]).any(axis=1)
+        raised = (found.corners >= 0).sum(axis=1) < np.array([len(own) for own in sites])
+        short = self._one(points, sites, triangles, raised & (node < 0) & ~lost, lost)
+        sheet = linked[:, 0] < 0
+        least = ONE * self._size
+        again = contracted(points, sites, triangles, node >= 0, narrow, sheet, short, least)
+        triangles, rows = _proper(again[triangles])
+        kept, linked = kept[rows], linked[rows]
+        if os.environ.get("DBG"): print("after contraction", eul(triangles, linked))
+        rows = _uncancelled(triangles, found.between[kept])
+        triangles, kept, linked = triangles[rows], kept[rows], linked[rows]
+        used, which = np.unique(triangles, return_inverse=True)
         return Extracted(
             points[used],
             radius[used],
@@ -240,6 +276,33 @@ class Extractor:
             [sites[k] for k in used.tolist()],
             which.reshape(-1, 3),
             found.between[kept],
+            linked,
             found.tet[kept],
             lost[used],
         )
+
+
+def _proper(triangles: Ints) -> tuple[Ints, Ints]:
+    """The triangles with three different vertices, and their rows."""
+    a, b, c = triangles.T
+    kept = np.flatnonzero((a != b) & (b != c) & (c != a))
+    return triangles[kept], kept
+
+
+def _uncancelled(triangles: Ints, between: Ints) -> Ints:
+    """Rows of the triangles that do not lie on another one of the same wall, turned round."""
+    ordered = np.sort(triangles, axis=1)
+    turn = np.argmin(triangles, axis=1)
+    second = np.take_along_axis(triangles, ((turn + 1) % 3)[:, None], axis=1)[:, 0]
+    sense = np.where(second == ordered[:, 1], 1, -1)
+    key = np.concatenate([ordered, between], axis=1)
+    _, which = np.unique(key, axis=0, return_inverse=True)
+    which = which.reshape(-1)
+    net = np.bincount(which, weights=sense)
+    taken = np.zeros(len(net), dtype=np.int64)
+    rows = []
+    for row, kind in enumerate(which.tolist()):
+        if taken[kind] < abs(net[kind]) and sense[row] * net[kind] > 0:
+            taken[kind] += 1
+            rows.append(row)
+    return np.array(rows, dtype=np.int64)

@@ -62,48 +62,13 @@ class WallMaker:
             points: (n, 3) of the complex.
             vertices: the point of the complex that each of the walls' vertices is.
         """
-        links = self.links(found)
+        links = found.links
         triangles = vertices[found.triangles]
         sheets, sheet_patches = self._sheets(
             triangles[links[:, 0] < 0], found.between[links[:, 0] < 0], points
         )
         trims, trim_patches = self._trims(found, links, triangles)
         return RegionWalls(tuple(sheets), tuple(sheet_patches), tuple(trims), tuple(trim_patches))
-
-    def links(self, found: Extracted) -> Ints:
-        """For each triangle (t, 2) the sites of which one takes over from the other, -1 on sheets.
-
-        Where a thin part is missing between two sites it is one of them and what lies between.
-        """
-        result: Ints = np.full((len(found.triangles), 2), -1, dtype=np.int64)
-        known: dict[tuple[int, int], bool] = {}
-        for row, (a, b) in enumerate(found.between.tolist()):
-            if (a, b) not in known:
-                known[a, b] = self._placer.takes_over(a, b)
-            if known[a, b]:
-                result[row] = a, b
-                continue
-            for vertex in found.triangles[row].tolist():
-                own = found.sites[vertex]
-                if found.node[vertex] < 0 and len(own) > 2 and a in own and b in own and self.one_contact(own, a, b):
-                    result[row] = self._between(own, a, b)
-                    break
-        return result
-
-    def one_contact(self, sites: tuple[int, ...], a: int, b: int) -> bool:
-        """Whether two of some sites share a foot where all are as near."""
-        return any({a, b} <= group for group in self._placer.contacts(sites))
-
-    def _between(self, sites: tuple[int, ...], a: int, b: int) -> tuple[int, int]:
-        """Of what lies between two sites the pair at which one takes over from another's cell."""
-        pairs = [
-            (i, j) for i in sites for j in sites if i < j and self._placer.takes_over(i, j)
-        ]
-        wanted = {self._owner[a], self._owner[b]}
-        for i, j in pairs:
-            if {self._owner[i], self._owner[j]} == wanted:
-                return i, j
-        return next(((i, j) for i, j in pairs if {a, b} & {i, j}), (a, b))
 
     def _sheets(
         self, triangles: Ints, between: Ints, points: Array

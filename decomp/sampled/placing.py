@@ -69,6 +69,24 @@ class Placer:
         edge, vertex = (one, two) if one.kind is SiteKind.EDGE else (two, one)
         return vertex.index in (boundary.edges[edge.index].vertices or ())
 
+    def is_face(self, site: int) -> bool:
+        """Whether a site is a face."""
+        return self._it.sites[site].kind is SiteKind.FACE
+
+    def on_normal(self, a: int, b: int) -> bool:
+        """Whether two sites are as near along one normal at a vertex alone.
+
+        They are a face and a vertex of it, or two edges that end there.
+        """
+        one, two = self._it.sites[a], self._it.sites[b]
+        kinds = {one.kind, two.kind}
+        if kinds == {SiteKind.FACE, SiteKind.VERTEX}:
+            return self.takes_over(a, b)
+        if kinds != {SiteKind.EDGE} or a == b:
+            return False
+        ends = [self._it.boundary.edges[site.index].vertices or () for site in (one, two)]
+        return bool(set(ends[0]) & set(ends[1]))
+
     def later(self, a: int, b: int) -> int:
         """The one of two sites that takes over from the other: the vertex, or else the edge."""
         order = (SiteKind.FACE, SiteKind.EDGE, SiteKind.VERTEX)

@@ -15,7 +15,7 @@ from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints
 
-ROUNDS, LEAST = 40, 4
+ROUNDS, LEAST = 10, 3
 """Rounds at most, and at least."""
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
