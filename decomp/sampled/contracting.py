@@ -45,21 +45,12 @@ def thin(
     return result
 
 
-def contracted(
-    points: Array,
-    sites: list[tuple[int, ...]],
-    triangles: Ints,
-    fixed: Bools,
-    wanted: Bools,
-    sheet: Bools,
-    short: Ints,
-    least: float,
-) -> Ints:
-    """Which vertex each vertex (v,) has become one with.
+class Contractor:
+    """Contracts edges of a complex.
 
     Args:
         points: (v, 3).
-        sites: of each vertex.
+        sites: of each vertex; where vertices at one place become one their sites are joined.
         triangles: (t, 3) all of them.
         fixed: (v,) vertices that may not become one with other fixed ones, nor move.
         wanted: (t,) triangles that are to go.
@@ -68,81 +59,106 @@ def contracted(
         least: no shorter edge has a length; where one goes trim surfaces may come to lie on each
             other.
     """
-    parent = np.arange(len(points))
-    mesh = {k: set(row) for k, row in enumerate(triangles.tolist())}
-    at: dict[int, set[int]] = defaultdict(set)
-    for k, row in mesh.items():
-        for vertex in row:
-            at[vertex].add(k)
-    skeleton = set(np.flatnonzero(sheet).tolist())
-    goal = set(np.flatnonzero(wanted).tolist())
-    heap: list[tuple[float, int, int]] = []
 
-    def gap(a: int, b: int) -> float:
-        length = float(norm(points[a] - points[b]))
-        return length if length > least else 0.0
+    def __init__(
+        self,
+        points: Array,
+        sites: list[tuple[int, ...]],
+        triangles: Ints,
+        fixed: Bools,
+        wanted: Bools,
+        sheet: Bools,
+        short: Ints,
+        least: float,
+    ) -> None:
+        self._points, self._sites, self._fixed, self._least = points, sites, fixed, least
+        self._parent = np.arange(len(points))
+        self._mesh = {k: set(row) for k, row in enumerate(triangles.tolist())}
+        self._at: dict[int, set[int]] = defaultdict(set)
+        for k, row in self._mesh.items():
+            for vertex in row:
+                self._at[vertex].add(k)
+        self._skeleton = set(np.flatnonzero(sheet).tolist())
+        self._goal = set(np.flatnonzero(wanted).tolist())
+        self._short = {(min(a, b), max(a, b)) for a, b in short.tolist()}
 
-    def push(k: int) -> None:
-        row = sorted(mesh[k])
-        for i in range(3):
-            a, b = row[i - 1], row[i]
-            heapq.heappush(heap, (gap(a, b), min(a, b), max(a, b)))
+    def run(self) -> Ints:
+        """Contract all that can be; which vertex each vertex (v,) has become one with."""
+        while True:
+            heap = [(self._gap(*pair), *pair) for pair in self._pairs()]
+            heapq.heapify(heap)
+            done = 0
+            while heap:
+                length, a, b = heapq.heappop(heap)
+                if self._parent[a] == a and self._parent[b] == b:
+                    done += self._contract(a, b, length)
+            if not done:
+                break
+        while True:
+            above = self._parent[self._parent]
+            if (above == self._parent).all():
+                return above
+            self._parent = above
 
-    gone_edges = {(min(a, b), max(a, b)) for a, b in short.tolist()}
-    for a, b in sorted(gone_edges):
-        heapq.heappush(heap, (gap(a, b), a, b))
-    for k in sorted(goal):
-        push(k)
-    while heap:
-        length, a, b = heapq.heappop(heap)
+    def _pairs(self) -> set[tuple[int, int]]:
+        """The edges that are to go now."""
+        found = {pair for pair in self._short if self._at[pair[0]] & self._at[pair[1]]}
+        for k in self._goal:
+            a, b, c = sorted(self._mesh[k])
+            found |= {(a, b), (a, c), (b, c)}
+        return found
+
+    def _gap(self, a: int, b: int) -> float:
+        length = float(norm(self._points[a] - self._points[b]))
+        return length if length > self._least else 0.0
+
+    def _contract(self, a: int, b: int, length: float) -> bool:
+        """Contract an edge if it is still one, and that changes nothing else."""
+        at, sites = self._at, self._sites
         shared = at[a] & at[b]
-        if parent[a] != a or parent[b] != b or (fixed[a] and fixed[b]):
-            continue
-        if not shared & goal and not (shared and (a, b) in gone_edges):
-            continue
-        if length > 0 and not _linked(mesh, at[a], at[b], a, b):
-            continue
-        if not _linked(mesh, at[a] & skeleton, at[b] & skeleton, a, b):
-            continue
-        first = fixed[a] or (not fixed[b] and len(sites[a]) >= len(sites[b]))
+        if not shared or (self._fixed[a] and self._fixed[b]):
+            return False
+        if not shared & self._goal and (a, b) not in self._short:
+            return False
+        if length > 0 and not self._linked(at[a], at[b], a, b):
+            return False
+        if not self._linked(at[a] & self._skeleton, at[b] & self._skeleton, a, b):
+            return False
+        first = self._fixed[a] or (not self._fixed[b] and len(sites[a]) >= len(sites[b]))
         kept, gone = (a, b) if first else (b, a)
         if not set(sites[gone]) <= set(sites[kept]):
-            continue
-        parent[gone] = kept
+            if length > 0:
+                return False
+            sites[kept] = tuple(sorted({*sites[kept], *sites[gone]}))
+        self._parent[gone] = kept
         for k in list(at[gone]):
             at[gone].discard(k)
             if k in shared:
-                for v in mesh.pop(k):
+                for v in self._mesh.pop(k):
                     at[v].discard(k)
-                goal.discard(k)
-                skeleton.discard(k)
+                self._goal.discard(k)
+                self._skeleton.discard(k)
             else:
-                mesh[k] = {kept if v == gone else v for v in mesh[k]}
+                self._mesh[k] = {kept if v == gone else v for v in self._mesh[k]}
                 at[kept].add(k)
-        for k in at[kept] & goal:
-            push(k)
-        for v in {v for k in at[kept] for v in mesh[k]} - {kept}:
-            # what was to become one with what is gone is to become one with what it has become
-            if (min(v, gone), max(v, gone)) in gone_edges:
-                pair = (min(v, kept), max(v, kept))
-                gone_edges.add(pair)
-                heapq.heappush(heap, (gap(v, kept), *pair))
-    while True:
-        above = parent[parent]
-        if (above == parent).all():
-            return parent
-        parent = above
-
-
-def _linked(mesh: dict[int, set[int]], one: set[int], two: set[int], a: int, b: int) -> bool:
-    """Whether two vertices with given triangles can become one without any other change."""
-    if not one or not two:
+        # what was to become one with what is gone is to become one with what that has become
+        for pair in [pair for pair in self._short if gone in pair]:
+            self._short.discard(pair)
+            other = pair[0] if pair[1] == gone else pair[1]
+            if other != kept:
+                self._short.add((min(other, kept), max(other, kept)))
         return True
-    if not one & two:
-        return False
-    around = {v for k in one & two for v in mesh[k]} - {a, b}
-    near = {v for k in one for v in mesh[k]} & {v for k in two for v in mesh[k]}
-    if near - {a, b} != around:
-        return False
-    facing = {frozenset(mesh[k] - {a}) for k in one - two}
-    return not facing & {frozenset(mesh[k] - {b}) for k in two - one}
+
+    def _linked(self, one: set[int], two: set[int], a: int, b: int) -> bool:
+        """Whether two vertices with given triangles can become one without any other change."""
+        if not one or not two:
+            return True
+        if not one & two:
+            return False
+        mesh = self._mesh
+        around = {v for k in one & two for v in mesh[k]} - {a, b}
+        near = {v for k in one for v in mesh[k]} & {v for k in two for v in mesh[k]}
+        if near - {a, b} != around:
+            return False
+        facing = {frozenset(mesh[k] - {a}) for k in one - two}
+        return not facing & {frozenset(mesh[k] - {b}) for k in two - one}

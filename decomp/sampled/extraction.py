@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
-from decomp.sampled.contracting import contracted, thin
+from decomp.sampled.contracting import Contractor, thin
 from decomp.sampled.crossings import crossings
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
@@ -249,23 +249,17 @@ class Extractor:
         triangles, kept = _proper(top[found.triangles])
         narrow = thin(points, sites, triangles, self._placer)
         linked = self._links(sites, node, triangles, found.between[kept])
-        import os
-        if os.environ.get("DBG"):
-            def eul(t, l):
-                t=np.unique(np.sort(t[l[:,0]<0],axis=1),axis=0)
-                e=np.unique(np.sort(t[:,[[0,1],[1,2],[2,0]]].reshape(-1,2),axis=1),axis=0)
-                return len(np.unique(t))-len(e)+len(t)
-            print("before contraction", eul(triangles, linked))
         # what lies between two sites may be missing from the labels, but the two do not touch
         narrow |= (linked[:, 0] >= 0) & (linked != found.between[kept]).any(axis=1)
         raised = (found.corners >= 0).sum(axis=1) < np.array([len(own) for own in sites])
         short = self._one(points, sites, triangles, raised & (node < 0) & ~lost, lost)
         sheet = linked[:, 0] < 0
         least = ONE * self._size
-        again = contracted(points, sites, triangles, node >= 0, narrow, sheet, short, least)
+        again = Contractor(
+            points, sites, triangles, node >= 0, narrow, sheet, short, least
+        ).run()
         triangles, rows = _proper(again[triangles])
         kept, linked = kept[rows], linked[rows]
-        if os.environ.get("DBG"): print("after contraction", eul(triangles, linked))
         rows = _uncancelled(triangles, found.between[kept])
         triangles, kept, linked = triangles[rows], kept[rows], linked[rows]
         used, which = np.unique(triangles, return_inverse=True)

@@ -113,7 +113,5 @@ class Refiner:
                 pinched[row] = True
                 at[row] = found.points[k]
         if pinched.any():
-            import os
-            if os.environ.get("DBG"): print("pinched", pinched.sum())
             mesh.halve(edges, which, pinched, at)
         return bool(pinched.any())

@@ -168,11 +168,11 @@ class Described:
         mesh: Complex,
     ) -> None:
         self._geometry, self._given, self._tools = geometry, given, tools
-        self._shown, self._mesh = shown, mesh
+        self._shown, self.mesh = shown, mesh
         self.radius = self._radius()
 
     def _radius(self) -> Array:
-        mesh, count = self._mesh, len(self._given.plan.complex.patches)
+        mesh, count = self.mesh, len(self._given.plan.complex.patches)
         radius = np.zeros(len(mesh.points))
         on = np.zeros(len(mesh.points), dtype=np.bool_)
         for patch in mesh.patches[:count]:
@@ -183,7 +183,7 @@ class Described:
 
     def region(self, number: int) -> tuple[RegionSkeleton, Certified]:
         """The skeleton of one region, with its certificate."""
-        geometry, mesh = self._geometry, self._mesh
+        geometry, mesh = self._geometry, self.mesh
         boundary = geometry.regions[number]
         made, first = self._shown.walls[number], self._shown.first[number]
         sheets = tuple(
@@ -225,8 +225,8 @@ class Described:
         return region, found
 
     def _sheet(self, region: int, patch: int, sites: tuple[int, int]) -> Sheet:
-        triangles = self._mesh.patches[patch].triangles
-        corners = self._mesh.points[triangles]
+        triangles = self.mesh.patches[patch].triangles
+        corners = self.mesh.points[triangles]
         doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
         used = self.radius[triangles]
         return Sheet(
@@ -253,8 +253,8 @@ class Described:
             sheets = [p - first for p in chain.patches if 0 <= p - first < len(made.sheets)]
             if not sheets or min(chain.patches) < len(self._given.plan.complex.patches):
                 continue
-            vertices = self._mesh.lines[number].vertices
-            length = float(norm(np.diff(self._mesh.points[vertices], axis=0)).sum())
+            vertices = self.mesh.lines[number].vertices
+            length = float(norm(np.diff(self.mesh.points[vertices], axis=0)).sum())
             sites = tuple(sorted({site for k in sheets for site in made.sheets[k]}))
             line = SkeletonLine(sites, tuple(sorted(set(sheets))), number, length, chain.closed)
             found.append((_kind(sheets), line))
@@ -267,7 +267,7 @@ class Described:
         ending: dict[int, int] = {}
         sites: dict[int, set[int]] = {}
         for kind, line in lines:
-            ends = self._mesh.lines[line.line].vertices[[0, -1]]
+            ends = self.mesh.lines[line.line].vertices[[0, -1]]
             for end in [] if line.closed else ends.tolist():
                 sites.setdefault(end, set()).update(line.sites)
                 if kind is LineKind.SEAM:
