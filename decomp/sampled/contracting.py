@@ -22,9 +22,7 @@ FLAT = 0.05
 """Walls whose triangles are no higher than this part of their longest sides can be contracted."""
 
 
-def thin(
-    points: Array, sites: list[tuple[int, ...]], triangles: Ints, placer: Placer
-) -> Bools:
+def thin(points: Array, sites: list[tuple[int, ...]], triangles: Ints, placer: Placer) -> Bools:
     """Which triangles (t, 3) have all vertices on one curve.
 
     That is where three sites or more meet, or the normal of a face at a vertex of it.

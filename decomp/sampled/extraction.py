@@ -9,13 +9,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
+
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
-from decomp.sampled.contracting import Contractor, thin
+from decomp.sampled.contracting import thin
 from decomp.sampled.crossings import crossings
+from decomp.sampled.extracted import Extracted, contracted
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
 from decomp.sampled.placing import Placer
@@ -31,33 +31,6 @@ MOST = 6
 """So many sites at most are as near to one vertex."""
 FAR = 2.0
 """A vertex is moved no farther than so many of the longest edges around it."""
-
-
-@dataclass(frozen=True, eq=False)
-class Extracted:
-    """Walls of one region.
-
-    Args:
-        points: (v, 3) of their vertices.
-        radius: (v,) distance from the boundary.
-        node: (v,) the boundary node that a vertex is, -1 for those inside.
-        sites: of each vertex, all that are as near.
-        triangles: (t, 3) vertices, all different.
-        between: (t, 2) sites on both sides, lower first; normals point from it to the other.
-        links: (t, 2) on trim surfaces the sites of which one takes over, -1 on sheets.
-        tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
-        lost: (v,) vertices that could not be placed well.
-    """
-
-    points: Array
-    radius: Array
-    node: Ints
-    sites: list[tuple[int, ...]]
-    triangles: Ints
-    between: Ints
-    links: Ints
-    tet: Ints
-    lost: Bools
 
 
 class Extractor:
@@ -130,11 +103,6 @@ class Extractor:
                 done[[a, b]] = True
         return np.asarray(edges[same])
 
-    def _links(
-        self, sites: list[tuple[int, ...]], node: Ints, triangles: Ints, between: Ints
-    ) -> Ints:
-        return links(self._placer, self._owner, sites, node, triangles, between)
-
     @staticmethod
     def _reach(points: Array, corners: Ints) -> Array:
         """The longest edge (v,) between the corners of each vertex."""
@@ -195,9 +163,12 @@ class Extractor:
                 vertex, nearer = int(left[row]), int(found.site[row])
                 if self._flat(sites[vertex]):
                     continue
-                if nearer < 0 or lost[vertex] or nearer in sites[vertex]:
-                    lost[vertex] = True
-                elif len(sites[vertex]) >= MOST:
+                if (
+                    nearer < 0
+                    or lost[vertex]
+                    or nearer in sites[vertex]
+                    or len(sites[vertex]) >= MOST
+                ):
                     lost[vertex] = True
                 else:
                     sites[vertex] = tuple(sorted({*sites[vertex], nearer}))
@@ -246,57 +217,18 @@ class Extractor:
         top = np.arange(len(points))
         for vertex in np.flatnonzero(node >= 0).tolist():
             top[vertex] = first.setdefault(int(node[vertex]), vertex)
-        triangles, kept = _proper(top[found.triangles])
+        triangles = top[found.triangles]
+        a, b, c = triangles.T
+        kept = np.flatnonzero((a != b) & (b != c) & (c != a))
+        triangles = triangles[kept]
         narrow = thin(points, sites, triangles, self._placer)
-        linked = self._links(sites, node, triangles, found.between[kept])
+        between = found.between[kept]
+        linked = links(self._placer, self._owner, sites, node, triangles, between)
         # what lies between two sites may be missing from the labels, but the two do not touch
-        narrow |= (linked[:, 0] >= 0) & (linked != found.between[kept]).any(axis=1)
+        narrow |= (linked[:, 0] >= 0) & (linked != between).any(axis=1)
         raised = (found.corners >= 0).sum(axis=1) < np.array([len(own) for own in sites])
         short = self._one(points, sites, triangles, raised & (node < 0) & ~lost, lost)
-        sheet = linked[:, 0] < 0
-        least = ONE * self._size
-        again = Contractor(
-            points, sites, triangles, node >= 0, narrow, sheet, short, least
-        ).run()
-        triangles, rows = _proper(again[triangles])
-        kept, linked = kept[rows], linked[rows]
-        rows = _uncancelled(triangles, found.between[kept])
-        triangles, kept, linked = triangles[rows], kept[rows], linked[rows]
-        used, which = np.unique(triangles, return_inverse=True)
-        return Extracted(
-            points[used],
-            radius[used],
-            node[used],
-            [sites[k] for k in used.tolist()],
-            which.reshape(-1, 3),
-            found.between[kept],
-            linked,
-            found.tet[kept],
-            lost[used],
+        whole = Extracted(
+            points, radius, node, sites, triangles, between, linked, found.tet[kept], lost
         )
-
-
-def _proper(triangles: Ints) -> tuple[Ints, Ints]:
-    """The triangles with three different vertices, and their rows."""
-    a, b, c = triangles.T
-    kept = np.flatnonzero((a != b) & (b != c) & (c != a))
-    return triangles[kept], kept
-
-
-def _uncancelled(triangles: Ints, between: Ints) -> Ints:
-    """Rows of the triangles that do not lie on another one of the same wall, turned round."""
-    ordered = np.sort(triangles, axis=1)
-    turn = np.argmin(triangles, axis=1)
-    second = np.take_along_axis(triangles, ((turn + 1) % 3)[:, None], axis=1)[:, 0]
-    sense = np.where(second == ordered[:, 1], 1, -1)
-    key = np.concatenate([ordered, between], axis=1)
-    _, which = np.unique(key, axis=0, return_inverse=True)
-    which = which.reshape(-1)
-    net = np.bincount(which, weights=sense)
-    taken = np.zeros(len(net), dtype=np.int64)
-    rows = []
-    for row, kind in enumerate(which.tolist()):
-        if taken[kind] < abs(net[kind]) and sense[row] * net[kind] > 0:
-            taken[kind] += 1
-            rows.append(row)
-    return np.array(rows, dtype=np.int64)
+        return contracted(whole, narrow, short, ONE * self._size)

@@ -48,9 +48,7 @@ class Labeller:
         face_of_patch: the face of the region on each patch of the boundaries, -1 for none.
     """
 
-    def __init__(
-        self, queries: RegionQueries, incidence: Incidence, face_of_patch: Ints
-    ) -> None:
+    def __init__(self, queries: RegionQueries, incidence: Incidence, face_of_patch: Ints) -> None:
         self._queries, self._incidence = queries, incidence
         self._face_of_patch = face_of_patch
         self._slack = ON * incidence.boundary.diagonal

@@ -38,9 +38,7 @@ def chains(triangles: Ints, patch: Ints, extra: Sequence[tuple[int, int]] = ()) 
     sides = np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1)
     edges, which = np.unique(sides, axis=0, return_inverse=True)
     order = np.lexsort((np.repeat(patch, 3), which.reshape(-1)))
-    around = np.split(
-        np.repeat(patch, 3)[order], np.cumsum(np.bincount(which.reshape(-1)))[:-1]
-    )
+    around = np.split(np.repeat(patch, 3)[order], np.cumsum(np.bincount(which.reshape(-1)))[:-1])
     kinds: dict[tuple[int, int], tuple[int, ...]] = {}
     for edge, own in zip(edges.tolist(), around, strict=True):
         if len(own) != 2 or own[0] != own[1]:

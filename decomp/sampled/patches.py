@@ -6,7 +6,6 @@ parts the cells of different faces is kept.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -135,5 +134,3 @@ def parts(triangles: Ints) -> list[Ints]:
 def numbered_trims(made: RegionWalls, first: int) -> tuple[TrimSurface, ...]:
     """Trim surfaces with the numbers of their patches, which begin at a given one."""
     return tuple(TrimSurface(first + k, faces) for k, faces in enumerate(made.trims))
-
-

@@ -15,7 +15,7 @@ import numpy as np
 from decomp.medial.incidence import Incidence
 from decomp.sites.site import SiteKind, faces_at
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm
+from decomp.vectors import Array, Bools, cross, dot, norm
 
 STEPS = 30
 EXACT = 2e-14
@@ -186,9 +186,7 @@ class Placer:
         found = site_fields(self._it.boundary, self._it.sites, which, x, feet)
         return found.distance, found.gradient, found.foot
 
-    def _off_normals(
-        self, a: int, b: int, x: Array, feet: Array
-    ) -> list[tuple[Array, Array]]:
+    def _off_normals(self, a: int, b: int, x: Array, feet: Array) -> list[tuple[Array, Array]]:
         """How far points are off the normals at which one site takes over, with gradients."""
         it = self._it
         one, two = it.sites[a], it.sites[b]

@@ -12,7 +12,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import monotonic
 
 import numpy as np
@@ -24,12 +24,13 @@ from decomp.fineness import fine_enough, finer
 from decomp.geometry import Geometry
 from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.sampled.bisecting import Bisected
-from decomp.sampled.extraction import Extracted, Extractor
+from decomp.sampled.extracted import Extracted, contracted
+from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.labels import Labeller
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.smoothing import unfolded
-from decomp.sampled.whole import Described, RegionTools, drawn, tools_of
+from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
 from decomp.tetra.cells import site_owners
 from decomp.tetra.child import MeshingError, TimeLimit
 from decomp.tracing.queries import region_queries
@@ -50,6 +51,9 @@ FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 SHARE = 0.7
 """The part of the tolerance that boundary curves may use up where volumes are foreseen."""
+UNFOLDINGS = 8
+"""So often walls are smoothed, and what is still folded then is contracted."""
+NOTHING = np.empty((0, 2), dtype=np.int64)
 LIMIT = 600.0
 """Seconds after which no further try is begun."""
 
@@ -100,7 +104,12 @@ def sampled_skeleton(
 
 
 def _attempt(
-    geometry: Geometry, tolerance: float, fineness: float, floor: float, tell: Progress, share: float
+    geometry: Geometry,
+    tolerance: float,
+    fineness: float,
+    floor: float,
+    tell: Progress,
+    share: float,
 ) -> _Try:
     size = COARSE * floor
     given = interior(
@@ -117,12 +126,11 @@ def _attempt(
         where = ", ".join(f"{x:.6g}" for x in at)
         raise GeometryError(f"{lost} points of walls have no place, one near ({where})")
     tell("triangulating sheets", share)
-    shown = drawn(geometry, given, mesh, tools, extracted)
-    smooth = unfolded(shown.complex, len(given.plan.complex.patches))
+    shown = _smooth(geometry, given, mesh, tools, extracted)
     result = _Try(None, ["nothing was tried"])
     for _ in range(FINENESSES):
         tell("refining", share)
-        made, _ = refined(smooth, fineness * geometry.diagonal)
+        made, _ = refined(shown.complex, fineness * geometry.diagonal)
         tell("measuring", share)
         described = Described(geometry, given, tools, shown, made)
         regions, failures, short = [], [], set()
@@ -145,6 +153,31 @@ def _attempt(
             break
         fineness = finer(fineness, excess)
     return result
+
+
+def _smooth(
+    geometry: Geometry,
+    given: Interior,
+    mesh: Bisected,
+    tools: list[RegionTools],
+    extracted: list[Extracted],
+) -> Drawn:
+    """The complex, smoothed; triangles that stay folded are contracted."""
+    boundary = len(given.plan.complex.patches)
+    for left in reversed(range(UNFOLDINGS)):
+        shown = drawn(geometry, given, mesh, tools, extracted)
+        smooth, folded = unfolded(shown.complex, boundary)
+        if not left or not len(folded):
+            break
+        bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
+        fewer = []
+        for found, vertices in zip(extracted, shown.vertices, strict=True):
+            moved = replace(found, points=smooth.points[vertices])
+            corners = np.sort(vertices[found.triangles], axis=1).tolist()
+            wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
+            fewer.append(contracted(moved, wanted, NOTHING, 0.0))
+        extracted = fewer
+    return replace(shown, complex=smooth)
 
 
 def _walls(
@@ -210,5 +243,3 @@ def _skeleton(
         described.radius,
         tuple(regions),
     )
-
-

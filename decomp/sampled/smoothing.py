@@ -15,13 +15,16 @@ from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints
 
-ROUNDS, LEAST = 10, 3
+ROUNDS, LEAST = 6, 3
 """Rounds at most, and at least."""
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
-def unfolded(given: Complex, fixed: int) -> Complex:
+def unfolded(given: Complex, fixed: int) -> tuple[Complex, Ints]:
     """Smooth a complex until no triangle is folded, or for so many rounds.
+
+    Returns:
+        the complex, and triangles (k, 3) that are still folded.
 
     Args:
         given: with all its vertices in their places.
@@ -45,7 +48,8 @@ def unfolded(given: Complex, fixed: int) -> Complex:
             # one that has no place there keeps all others from moving: each for itself
             for row, node in enumerate(moving.tolist()):
                 points[node] = _one(elements, int(element[node]), wanted[row], points[node])
-    return replace(given, points=points)
+    bad = _folded(elements, numbers, points[own])
+    return replace(given, points=points), own[bad]
 
 
 def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Array:

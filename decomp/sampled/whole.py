@@ -44,12 +44,14 @@ class Drawn:
         chains: its lines, in their order.
         walls: of each region.
         first: the number of each region's first patch.
+        vertices: for each region the point that each of its walls' vertices is.
     """
 
     complex: Complex
     chains: tuple[Chain, ...]
     walls: tuple[RegionWalls, ...]
     first: tuple[int, ...]
+    vertices: tuple[Ints, ...]
 
 
 def drawn(
@@ -91,7 +93,7 @@ def drawn(
         walls.append(made)
         first.append(len(patches))
         patches += [*made.sheet_patches, *made.trim_patches]
-    return _with_lines(given, tools, every, patches, walls, first)
+    return _with_lines(given, tools, every, patches, walls, first, vertices)
 
 
 def _with_lines(
@@ -101,6 +103,7 @@ def _with_lines(
     patches: list[Patch],
     walls: list[RegionWalls],
     first: list[int],
+    vertices: list[Ints],
 ) -> Drawn:
     patch = np.repeat(np.arange(len(patches)), [len(p.triangles) for p in patches])
     triangles = np.concatenate([p.triangles for p in patches])
@@ -133,7 +136,11 @@ def _with_lines(
             kind = _kind([p for p in walls_at if _is_sheet(p, walls, first)])
         lines.append(Line(kind, curve, ends))
     return Drawn(
-        Complex(points, tuple(patches), tuple(lines)), tuple(found), tuple(walls), tuple(first)
+        Complex(points, tuple(patches), tuple(lines)),
+        tuple(found),
+        tuple(walls),
+        tuple(first),
+        tuple(vertices),
     )
 
 
@@ -186,9 +193,7 @@ class Described:
         geometry, mesh = self._geometry, self.mesh
         boundary = geometry.regions[number]
         made, first = self._shown.walls[number], self._shown.first[number]
-        sheets = tuple(
-            self._sheet(number, first + k, sites) for k, sites in enumerate(made.sheets)
-        )
+        sheets = tuple(self._sheet(number, first + k, sites) for k, sites in enumerate(made.sheets))
         trims = numbered_trims(made, first + len(made.sheets))
         face_sides = self._given.surface.face_sides(number, len(boundary.faces))
         owner = self._tools[number].owner
@@ -284,8 +289,6 @@ def tools_of(geometry: Geometry, number: int, owner: Ints) -> RegionTools:
     region_queries(geometry.index, number)
     incidence = Incidence(geometry.regions[number], geometry.sites, number)
     own = {
-        site: int(owner[site])
-        for site, each in enumerate(geometry.sites)
-        if each.region == number
+        site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
     return RegionTools(incidence, Placer(incidence), own)
