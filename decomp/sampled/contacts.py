@@ -39,9 +39,15 @@ def links(
         if known[a, b]:
             result[row] = a, b
             continue
-        for vertex in triangles[row].tolist():
-            own = sites[vertex]
-            if node[vertex] >= 0 or len(own) < 3 or a not in own or b not in own:
+        corners = triangles[row].tolist()
+        inner = [vertex for vertex in corners if node[vertex] < 0]
+        if inner:
+            asked = [sites[vertex] for vertex in inner]
+        else:
+            # on the boundary itself: what all three nodes are on
+            asked = [tuple(sorted(set.intersection(*(set(sites[v]) for v in corners))))]
+        for own in asked:
+            if len(own) < 3 or a not in own or b not in own:
                 continue
             if own not in groups:
                 groups[own] = placer.contacts(own)

@@ -18,7 +18,7 @@ import numpy as np
 from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-FLAT = 0.05
+FLAT = 0.15
 """Walls whose triangles are no higher than this part of their longest sides can be contracted."""
 
 

@@ -24,6 +24,7 @@ from decomp.fineness import fine_enough, finer
 from decomp.geometry import Geometry
 from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.sampled.bisecting import Bisected
+from decomp.sampled.contracting import thin
 from decomp.sampled.extracted import Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
@@ -171,10 +172,11 @@ def _smooth(
             break
         bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
         fewer = []
-        for found, vertices in zip(extracted, shown.vertices, strict=True):
+        for found, vertices, tool in zip(extracted, shown.vertices, tools, strict=True):
             moved = replace(found, points=smooth.points[vertices])
             corners = np.sort(vertices[found.triangles], axis=1).tolist()
             wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
+            wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
             fewer.append(contracted(moved, wanted, NOTHING, 0.0))
         extracted = fewer
     return replace(shown, complex=smooth)

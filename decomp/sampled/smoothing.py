@@ -1,6 +1,6 @@
-"""Walls without folds: their vertices are moved to the middle of their neighbours, and placed again.
+"""Walls without folds: vertices are moved to the middle of their neighbours, and placed again.
 
-What lies on a line moves along it; boundaries and the ends of lines stay.
+What lies on a line moves along it; the boundary's edges and the ends of lines stay.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.complex.errors_of import triangle_errors
-from decomp.complex.model import Complex
+from decomp.complex.model import Complex, LineKind
 from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints
@@ -20,26 +20,25 @@ ROUNDS, LEAST = 6, 3
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
-def unfolded(given: Complex, fixed: int) -> tuple[Complex, Ints]:
+def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
     """Smooth a complex until no triangle is folded, or for so many rounds.
 
     Returns:
-        the complex, and triangles (k, 3) that are still folded.
+        the complex, and triangles (k, 3) of walls that are still folded.
 
     Args:
         given: with all its vertices in their places.
-        fixed: so many of its patches, the first, stay as they are.
+        first: the number of the first patch that is a wall's.
     """
     elements = Elements(given)
     triangles = np.concatenate([patch.triangles for patch in given.patches])
     patch = np.repeat(np.arange(len(given.patches)), [len(p.triangles) for p in given.patches])
-    element, pairs = _movable(given, elements, triangles, patch, fixed)
+    element, pairs = _movable(given, elements, triangles, patch)
     moving = np.flatnonzero(element >= 0)
     points = np.array(given.points)
-    inner = patch >= fixed
-    own, numbers = triangles[inner], elements.of_patch[patch[inner]]
+    numbers = elements.of_patch[patch]
     for round_ in range(ROUNDS):
-        if round_ >= LEAST and not _folded(elements, numbers, points[own]).any():
+        if round_ >= LEAST and not _folded(elements, numbers, points[triangles]).any():
             break
         wanted = _middles(points, pairs)[moving]
         try:
@@ -48,8 +47,8 @@ def unfolded(given: Complex, fixed: int) -> tuple[Complex, Ints]:
             # one that has no place there keeps all others from moving: each for itself
             for row, node in enumerate(moving.tolist()):
                 points[node] = _one(elements, int(element[node]), wanted[row], points[node])
-    bad = _folded(elements, numbers, points[own])
-    return replace(given, points=points), own[bad]
+    bad = _folded(elements, numbers, points[triangles]) & (patch >= first)
+    return replace(given, points=points), triangles[bad]
 
 
 def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Array:
@@ -64,7 +63,7 @@ def _folded(elements: Elements, numbers: Ints, corners: Array) -> Bools:
 
 
 def _movable(
-    given: Complex, elements: Elements, triangles: Ints, patch: Ints, fixed: int
+    given: Complex, elements: Elements, triangles: Ints, patch: Ints
 ) -> tuple[Ints, Ints]:
     """The element (n,) that each point moves on, -1 for none, and pairs (k, 2): who moves where."""
     element: Ints = np.full(len(given.points), -1, dtype=np.int64)
@@ -74,13 +73,11 @@ def _movable(
     for number, line in enumerate(given.lines):
         closed = bool(line.vertices[0] == line.vertices[-1])
         on_line[line.vertices[:-1] if closed else line.vertices] += 1
-        element[line.vertices] = elements.of_line[number]
+        element[line.vertices] = -1 if line.kind is LineKind.EDGE else elements.of_line[number]
         along.append(np.stack([line.vertices[:-1], line.vertices[1:]], axis=1))
         if not closed:
-            element[line.vertices[[0, -1]]] = -1
             on_line[line.vertices[[0, -1]]] = 2
     element[on_line > 1] = -1
-    element[triangles[patch < fixed]] = -1
     segments = np.concatenate([np.empty((0, 2), dtype=np.int64), *along])
     sides = np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)
     inside = np.concatenate([sides, sides[:, ::-1]])
