@@ -31,7 +31,7 @@ def register(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute if need be, write or show."""
-    from decomp.cli.computing import computed
+    from decomp.cli.computing import computed, method_text
     from decomp.output.suffixes import known_suffix
     from decomp.output.whole_file import check_target, write_whole
     from decomp.view import image, page
@@ -41,7 +41,8 @@ def run(options: argparse.Namespace) -> None:
         known_suffix(path, SUFFIXES, "views")
         check_target(path)
     is_model = options.model.suffix.lower() in MODELS
-    scene = scene_of(options.model, computed(options) if is_model else None)
+    skeleton = computed(options) if is_model else None
+    scene = scene_of(options.model, skeleton)
     for path in options.output:
         encode = page.encoded if path.suffix.lower() == ".html" else image.encoded
         write_whole(path, encode(scene))
@@ -49,6 +50,9 @@ def run(options: argparse.Namespace) -> None:
         show(scene)
     elif not options.quiet:
         print(f"written: {', '.join(str(path) for path in options.output)}")
+        regions = [] if skeleton is None else skeleton.regions
+        for region in regions:
+            print(*(f"{line}\n" for line in method_text(region)), sep="", end="")
 
 
 def show(scene: Scene) -> None:

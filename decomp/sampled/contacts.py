@@ -44,8 +44,8 @@ def links(
         if inner:
             asked = [sites[vertex] for vertex in inner]
         else:
-            # on the boundary itself: what all three nodes are on
-            asked = [tuple(sorted(set.intersection(*(set(sites[v]) for v in corners))))]
+            # on the boundary itself: it is the edge that the nodes are on
+            asked = [tuple(sorted({site for v in corners for site in sites[v]}))]
         for own in asked:
             if len(own) < 3 or a not in own or b not in own:
                 continue

@@ -84,8 +84,21 @@ class Placer:
             return self.takes_over(a, b)
         if kinds != {SiteKind.EDGE} or a == b:
             return False
-        ends = [self._it.boundary.edges[site.index].vertices or () for site in (one, two)]
-        return bool(set(ends[0]) & set(ends[1]))
+        first, second = (set(self._it.boundary.edges[s.index].vertices or ()) for s in (one, two))
+        return bool(first & second)
+
+    def between(self, sites: tuple[int, ...], point: Array) -> int:
+        """The edge at which two of some sites meet that is nearest to a point (3,), -1 for none."""
+        edges = {
+            site
+            for edge, site in self._it.edge_site.items()
+            if sum(self._it.face_site[f] in sites for f in self._it.boundary.edges[edge].faces) > 1
+        }
+        left = sorted(edges - set(sites))
+        if not left:
+            return -1
+        away = norm(self._it.feet(left, point[None])[0] - point)
+        return left[int(np.argmin(away))]
 
     def later(self, a: int, b: int) -> int:
         """The one of two sites that takes over from the other: the vertex, or else the edge."""
@@ -194,24 +207,25 @@ class Placer:
             vertex, other = (one, two) if one.kind is SiteKind.VERTEX else (two, one)
             at = it.boundary.vertices[vertex.index].point
             if other.kind is SiteKind.EDGE:
-                ends = it.boundary.edges[other.index].vertices or ()
-                sense = -1.0 if ends[0] == vertex.index else 1.0
+                ends = it.boundary.edges[other.index].vertices
+                sense = -1.0 if ends is not None and ends[0] == vertex.index else 1.0
                 return [_plane(x, at, sense * it.tangent(other.index, at))]
             normal = it.inward(other.index, at[None])[0]
             u = np.eye(3)[int(np.argmin(np.abs(normal)))]
             u = u - (u @ normal) * normal
             u /= norm(u)
             return [_plane(x, at, u), _plane(x, at, cross(normal, u))]
-        edge, face, column = (a, two, 0) if one.kind is SiteKind.EDGE else (b, one, 1)
+        edge, own, column = (a, two, 0) if one.kind is SiteKind.EDGE else (b, one, 1)
         near = feet[:, column]
         faces = it.boundary.edges[it.sites[edge].index].faces
-        other = faces[1] if faces[0] == face.index else faces[0]
+        face = own.index
+        beyond = faces[1] if faces[0] == face else faces[0]
 
         def off(points: Array) -> Array:
             foot = self._field(edge, points, near)[2]
             # across the edge, along the face and away from it: the other face's normal leads there
-            normal, beyond = it.inward(face.index, foot), it.inward(other, foot)
-            across = beyond - dot(beyond, normal)[:, None] * normal
+            normal, second = it.inward(face, foot), it.inward(beyond, foot)
+            across = second - dot(second, normal)[:, None] * normal
             return np.asarray(dot(points - foot, across / norm(across)[:, None]))
 
         h = DELTA * self._size

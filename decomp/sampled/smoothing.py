@@ -62,9 +62,7 @@ def _folded(elements: Elements, numbers: Ints, corners: Array) -> Bools:
     return np.asarray(triangle_errors(elements, numbers, corners)[1] <= 0)
 
 
-def _movable(
-    given: Complex, elements: Elements, triangles: Ints, patch: Ints
-) -> tuple[Ints, Ints]:
+def _movable(given: Complex, elements: Elements, triangles: Ints, patch: Ints) -> tuple[Ints, Ints]:
     """The element (n,) that each point moves on, -1 for none, and pairs (k, 2): who moves where."""
     element: Ints = np.full(len(given.points), -1, dtype=np.int64)
     element[triangles] = elements.of_patch[patch][:, None]

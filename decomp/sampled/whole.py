@@ -13,7 +13,7 @@ from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
 from decomp.geometry import Geometry
 from decomp.medial.incidence import Incidence
-from decomp.medial.result import Junction, Parity, RegionSkeleton, Sheet, SkeletonLine
+from decomp.medial.result import Junction, Method, Parity, RegionSkeleton, Sheet, SkeletonLine
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.elements import PlacedCurve
 from decomp.sampled.extraction import Extracted
@@ -226,6 +226,7 @@ class Described:
             cells,
             of_faces,
             found.certificate,
+            Method.SAMPLED,
         )
         return region, found
 
