@@ -11,7 +11,7 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.sampled.interior import Interior
-from decomp.vectors import Array, Bools, Ints, norm
+from decomp.vectors import Array, Bools, Ints, norm, place
 
 EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
@@ -44,6 +44,17 @@ class Bisected:
         known = np.unique(self._keys(self.triangles[:, SIDES]))
         keys = edges[:, 0] * len(self.points) + edges[:, 1]
         return np.asarray(np.isin(keys, known))
+
+    def sagitta(self, edges: Ints) -> Array:
+        """How far the middles of edges (e, 2) are off the boundary's lines; 0 for all others."""
+        keys = self._keys(edges)
+        own = self._keys(self.triangles[:, SIDES]).reshape(-1)
+        pairs = np.unique(np.stack([own, np.repeat(self.patches, 3)], axis=1), axis=0)
+        lines, many = np.unique(pairs[:, 0], return_counts=True)
+        some = np.flatnonzero(np.isin(keys, lines[many > 1]))
+        result = np.zeros(len(edges))
+        result[some] = norm(self._middles(edges[some]) - self.points[edges[some]].mean(axis=1))
+        return result
 
     def shorten(self, wanted: Bools) -> None:
         """Halve edges until none of some tetrahedra (m,) is left whole.
@@ -155,9 +166,12 @@ class Bisected:
 
     def _on_line(self, patches: tuple[int, ...], point: Array) -> Array:
         """A point on the nearest line along which patches meet."""
+        if patches not in self._lines:
+            raise GeometryError(f"tetrahedra do not follow the edge near {place(point)}")
         lines = self._elements.of_line[self._lines[patches]]
-        placed = self._elements.place(lines, np.repeat(point[None], len(lines), axis=0))
-        return np.asarray(placed[np.argmin(norm(placed - point))])
+        placed: Array = self._elements.place(lines, np.repeat(point[None], len(lines), axis=0))
+        nearest = int(np.argmin(norm(placed - point)))
+        return np.asarray(placed[nearest])
 
     def _keys(self, pairs: Ints) -> Ints:
         """A number for each pair of nodes (..., 2) in any order."""

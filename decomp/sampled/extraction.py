@@ -9,6 +9,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 
 from decomp.sampled.bisecting import Bisected
@@ -129,8 +131,8 @@ class Extractor:
             sites[vertex] = tuple(sorted({*sites[vertex], int(made.third[row])}))
         edge = {tuple(row[:2]): k for k, row in enumerate(found.corners.tolist()) if row[2] < 0}
         for vertex in np.flatnonzero((many > 2) & (node < 0)).tolist():
-            row = [c for c in found.corners[vertex].tolist() if c >= 0]
-            around = [edge[a, b] for k, a in enumerate(row) for b in row[k + 1 :] if (a, b) in edge]
+            own = [c for c in found.corners[vertex].tolist() if c >= 0]
+            around = [edge[pair] for pair in combinations(own, 2) if pair in edge]
             points[vertex] = points[around].mean(axis=0)
 
     def _settle(
@@ -163,12 +165,11 @@ class Extractor:
                 vertex, nearer = int(left[row]), int(found.site[row])
                 if self._flat(sites[vertex]):
                     continue
-                if (
-                    nearer < 0
-                    or lost[vertex]
-                    or nearer in sites[vertex]
-                    or len(sites[vertex]) >= MOST
-                ):
+                if nearer < 0:
+                    # outside, beside a hollow face: the edge between two sites is nearest
+                    nearer = self._placer.between(sites[vertex], points[vertex])
+                crowded = len(sites[vertex]) >= MOST
+                if nearer < 0 or lost[vertex] or nearer in sites[vertex] or crowded:
                     lost[vertex] = True
                 else:
                     sites[vertex] = tuple(sorted({*sites[vertex], nearer}))

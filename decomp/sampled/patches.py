@@ -18,7 +18,7 @@ from decomp.medial.incidence import Incidence
 from decomp.medial.result import TrimSurface
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.sampled.elements import NormalsSurface
-from decomp.sampled.extraction import Extracted
+from decomp.sampled.extracted import Extracted
 from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Ints
 
@@ -120,7 +120,7 @@ class WallMaker:
 def parts(triangles: Ints) -> list[Ints]:
     """Triangles (m, 3) cut apart where they are not joined two by two."""
     sides = np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1)
-    edges, which, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
+    _, which, many = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
     which = which.reshape(-1)
     order = np.argsort(which, kind="stable")
     first = np.searchsorted(which[order], np.flatnonzero(many == 2))

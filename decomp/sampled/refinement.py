@@ -1,5 +1,7 @@
 """Tetrahedra made fine where labels ask for it.
 
+Edges of the boundary are followed within the chord tolerance. Then:
+
 1. Where walls are, edges are no longer than a part of the ball's radius, down to a floor.
 2. An edge whose middle is nearest to a third site is too long, down to half the floor.
 3. No edge leads along a face from one of its edges to another without a node between.
@@ -40,8 +42,22 @@ class Refiner:
         self._queries, self._labeller, self._placer = queries, labeller, placer
         self._region = region
 
-    def refined(self, mesh: Bisected, labels: Labels, floor: float) -> Labels:
-        """Refine down to a floor (a length); the labels of all nodes then."""
+    def refined(self, mesh: Bisected, labels: Labels, floor: float, chord: float) -> Labels:
+        """Refine; the labels of all nodes then.
+
+        Args:
+            mesh: is refined.
+            labels: of its nodes.
+            floor: a length.
+            chord: how far chords may be off the edges of the boundary.
+        """
+        for _ in range(ROUNDS):
+            edges, which = mesh.edges()
+            bent = mesh.sagitta(edges) > chord
+            if not bent.any():
+                break
+            mesh.halve(edges, which, bent)
+        labels = self._labeller.labels(mesh, labels)
         for _ in range(ROUNDS):
             wide = self._too_wide(mesh, labels, floor)
             if wide.any():

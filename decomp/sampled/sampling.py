@@ -51,7 +51,7 @@ FINEST = 0.1
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 SHARE = 0.7
-"""The part of the tolerance that boundary curves may use up where volumes are foreseen."""
+"""The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 8
 """So often walls are smoothed, and what is still folded then is contracted."""
 NOTHING = np.empty((0, 2), dtype=np.int64)
@@ -120,7 +120,7 @@ def _attempt(
     tools = [tools_of(geometry, number, owner) for number in range(len(geometry.regions))]
     tell("labelling", share)
     mesh = Bisected(given)
-    extracted = _walls(geometry, given, mesh, tools, floor)
+    extracted = _walls(geometry, given, mesh, tools, floor, SHARE * fineness * geometry.diagonal)
     lost = sum(int(found.lost.sum()) for found in extracted)
     if lost:
         at = next(found.points[found.lost][0] for found in extracted if found.lost.any())
@@ -188,6 +188,7 @@ def _walls(
     mesh: Bisected,
     tools: list[RegionTools],
     floor: float,
+    chord: float,
 ) -> list[Extracted]:
     """The walls of all regions; tetrahedra around those that cannot be placed are refined."""
     labellers, known = [], []
@@ -204,7 +205,9 @@ def _walls(
     found: list[Extracted] = []
     for left in reversed(range(AGAIN)):
         for number, (labeller, refiner) in enumerate(labellers):
-            known[number] = refiner.refined(mesh, labeller.labels(mesh, known[number]), floor)
+            known[number] = refiner.refined(
+                mesh, labeller.labels(mesh, known[number]), floor, chord
+            )
         found = []
         for number, (labeller, _) in enumerate(labellers):
             known[number] = labeller.labels(mesh, known[number])

@@ -9,11 +9,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from decomp.complex.errors_of import triangle_errors
+from decomp.complex.errors_of import triangle_normals
 from decomp.complex.model import Complex, LineKind
 from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, Ints
+from decomp.vectors import Array, Bools, Ints, dot
 
 ROUNDS, LEAST = 6, 3
 """Rounds at most, and at least."""
@@ -59,7 +59,9 @@ def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Arra
 
 
 def _folded(elements: Elements, numbers: Ints, corners: Array) -> Bools:
-    return np.asarray(triangle_errors(elements, numbers, corners)[1] <= 0)
+    """Whether triangles (k, 3, 3) oppose their surfaces' normals at their corners."""
+    normals = elements.normal(np.repeat(numbers, 3), corners.reshape(-1, 3)).reshape(-1, 3, 3)
+    return np.asarray(dot(normals.mean(axis=1), triangle_normals(corners)) <= 0)
 
 
 def _movable(given: Complex, elements: Elements, triangles: Ints, patch: Ints) -> tuple[Ints, Ints]:

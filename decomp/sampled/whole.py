@@ -11,19 +11,20 @@ from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.certificate.certificate import Certified, certified
 from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
+from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.medial.incidence import Incidence
 from decomp.medial.result import Junction, Method, Parity, RegionSkeleton, Sheet, SkeletonLine
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.elements import PlacedCurve
-from decomp.sampled.extraction import Extracted
+from decomp.sampled.extracted import Extracted
 from decomp.sampled.interior import Interior
 from decomp.sampled.lines import Chain, chains
 from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Ints, cross, norm
+from decomp.vectors import Array, Ints, cross, norm, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +109,7 @@ def _with_lines(
     patch = np.repeat(np.arange(len(patches)), [len(p.triangles) for p in patches])
     triangles = np.concatenate([p.triangles for p in patches])
     found = chains(triangles, patch)
-    of_patch: dict[int, tuple[int, ...]] = {}
+    of_patch: dict[int, tuple[int, int]] = {}
     region_of: dict[int, int] = {}
     for number, (made, start) in enumerate(zip(walls, first, strict=True)):
         for k, sites in enumerate(made.sheets):
@@ -131,7 +132,10 @@ def _with_lines(
             curve = _nearest(given, known[own], points[ends])
         else:
             walls_at = [p for p in chain.patches if p >= boundary]
-            sites = tuple(sorted({site for p in walls_at for site in of_patch[p]}))
+            if own or not walls_at:
+                at = place(points[ends[0]])
+                raise GeometryError(f"faces or walls meet where there is no edge, at {at}")
+            sites: tuple[int, ...] = tuple(sorted({site for p in walls_at for site in of_patch[p]}))
             curve = PlacedCurve(tools[region_of[walls_at[0]]].placer, sites)
             kind = _kind([p for p in walls_at if _is_sheet(p, walls, first)])
         lines.append(Line(kind, curve, ends))
