@@ -44,9 +44,9 @@ COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
 EPSILON = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-AGAIN = 4
+AGAIN = 10
 """So often tetrahedra are refined around walls that cannot be placed,"""
-FINEST = 0.1
+FINEST = 0.01
 """to this part of the floor at the most."""
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
