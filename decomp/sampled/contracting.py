@@ -90,7 +90,7 @@ class Contractor:
                 length, a, b = heapq.heappop(heap)
                 if self._parent[a] == a and self._parent[b] == b:
                     done += self._contract(a, b, length)
-            if not done:
+            if not done and not sum(self._weld(own) for own in self._clusters()):
                 break
         while True:
             above = self._parent[self._parent]
@@ -105,6 +105,55 @@ class Contractor:
             a, b, c = sorted(self._mesh[k])
             found |= {(a, b), (a, c), (b, c)}
         return found
+
+    def _clusters(self) -> list[list[int]]:
+        """Vertices at one place that edges join."""
+        group: dict[int, set[int]] = {}
+        for a, b in self._short:
+            if self._at[a] & self._at[b] and not self._gap(a, b):
+                both = group.get(a, {a}) | group.get(b, {b})
+                for vertex in both:
+                    group[vertex] = both
+        return [sorted(own) for own in {min(each): each for each in group.values()}.values()]
+
+    def _weld(self, cluster: list[int]) -> bool:
+        """Make vertices at one place one, if that keeps the skeleton's Euler characteristic.
+
+        They can hang together in a way in which no single edge may go.
+        """
+        fixed = [vertex for vertex in cluster if self._fixed[vertex]]
+        if len(fixed) > 1:
+            return False
+        kept = fixed[0] if fixed else max(cluster, key=lambda v: (len(self._sites[v]), -v))
+        around = {k for vertex in cluster for k in self._at[vertex]}
+        mesh = {k: {kept if v in cluster else v for v in self._mesh[k]} for k in around}
+        old = [self._mesh[k] for k in around & self._skeleton]
+        if _euler(old) != _euler([mesh[k] for k in around & self._skeleton]):
+            return False
+        for k, row in mesh.items():
+            for vertex in self._mesh[k]:
+                self._at[vertex].discard(k)
+            if len(row) < 3:
+                del self._mesh[k]
+                self._goal.discard(k)
+                self._skeleton.discard(k)
+                continue
+            self._mesh[k] = row
+            for vertex in row:
+                self._at[vertex].add(k)
+        self._sites[kept] = tuple(sorted({site for v in cluster for site in self._sites[v]}))
+        for vertex in set(cluster) - {kept}:
+            self._parent[vertex] = kept
+            self._renamed(vertex, kept)
+        return True
+
+    def _renamed(self, gone: int, kept: int) -> None:
+        """What was to become one with what is gone is to become one with what that has become."""
+        for pair in [pair for pair in self._short if gone in pair]:
+            self._short.discard(pair)
+            other = pair[0] if pair[1] == gone else pair[1]
+            if other != kept:
+                self._short.add((min(other, kept), max(other, kept)))
 
     def _gap(self, a: int, b: int) -> float:
         length = float(norm(self._points[a] - self._points[b]))
@@ -139,12 +188,7 @@ class Contractor:
             else:
                 self._mesh[k] = {kept if v == gone else v for v in self._mesh[k]}
                 at[kept].add(k)
-        # what was to become one with what is gone is to become one with what that has become
-        for pair in [pair for pair in self._short if gone in pair]:
-            self._short.discard(pair)
-            other = pair[0] if pair[1] == gone else pair[1]
-            if other != kept:
-                self._short.add((min(other, kept), max(other, kept)))
+        self._renamed(gone, kept)
         return True
 
     def _linked(self, one: set[int], two: set[int], a: int, b: int) -> bool:
@@ -160,3 +204,13 @@ class Contractor:
             return False
         facing = {frozenset(mesh[k] - {a}) for k in one - two}
         return not facing & {frozenset(mesh[k] - {b}) for k in two - one}
+
+
+def _euler(triangles: list[set[int]]) -> int:
+    """Euler characteristic of triangles with their sides and corners; some may be flat ones."""
+    every = {frozenset(row) for row in triangles}
+    for row in list(every):
+        corners = sorted(row)
+        every |= {frozenset((v,)) for v in corners}
+        every |= {frozenset((corners[i - 1], corners[i])) for i in range(len(corners))}
+    return sum((-1) ** (len(simplex) - 1) for simplex in every)

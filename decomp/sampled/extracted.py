@@ -7,7 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.sampled.contracting import Contractor
-from decomp.vectors import Array, Bools, Ints
+from decomp.vectors import Array, Bools, Ints, norm
+
+SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+ONE = 1e-10
+"""Vertices closer than this part of the size are one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,12 @@ class Extracted:
     links: Ints
     tet: Ints
     lost: Bools
+
+    def short_edges(self, least: float) -> Ints:
+        """The edges (k, 2) that are no longer than a length."""
+        edges = np.unique(np.sort(self.triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)
+        length = norm(self.points[edges[:, 0]] - self.points[edges[:, 1]])
+        return np.asarray(edges[length <= least])
 
 
 def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Extracted:

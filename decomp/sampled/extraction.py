@@ -17,18 +17,15 @@ from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
 from decomp.sampled.contracting import thin
 from decomp.sampled.crossings import crossings
-from decomp.sampled.extracted import Extracted, contracted
+from decomp.sampled.extracted import ONE, SIDES, Extracted, contracted
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
 from decomp.sampled.placing import Placer
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 NEARER = 1e-10
 """A site that is nearer, or takes over from another, by this part of the size joins in."""
-ONE = 1e-10
-"""Vertices closer than this part of the size are one."""
 MOST = 6
 """So many sites at most are as near to one vertex."""
 FAR = 2.0

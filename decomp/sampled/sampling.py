@@ -25,7 +25,7 @@ from decomp.geometry import Geometry
 from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contracting import thin
-from decomp.sampled.extracted import Extracted, contracted
+from decomp.sampled.extracted import ONE, Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.labels import Labeller
@@ -54,7 +54,6 @@ SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 8
 """So often walls are smoothed, and what is still folded then is contracted."""
-NOTHING = np.empty((0, 2), dtype=np.int64)
 LIMIT = 600.0
 """Seconds after which no further try is begun."""
 
@@ -177,7 +176,8 @@ def _smooth(
             corners = np.sort(vertices[found.triangles], axis=1).tolist()
             wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
             wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
-            fewer.append(contracted(moved, wanted, NOTHING, 0.0))
+            least = ONE * geometry.diagonal
+            fewer.append(contracted(moved, wanted, moved.short_edges(least), least))
         extracted = fewer
     return replace(shown, complex=smooth)
 

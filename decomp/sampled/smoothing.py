@@ -15,6 +15,8 @@ from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints, dot
 
+ALONG = 12
+"""Rounds in which only what is on lines moves, so that it comes to stand in order."""
 ROUNDS, LEAST = 6, 3
 """Rounds at most, and at least."""
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
@@ -34,21 +36,29 @@ def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
     triangles = np.concatenate([patch.triangles for patch in given.patches])
     patch = np.repeat(np.arange(len(given.patches)), [len(p.triangles) for p in given.patches])
     element, pairs = _movable(given, elements, triangles, patch)
-    moving = np.flatnonzero(element >= 0)
     points = np.array(given.points)
     numbers = elements.of_patch[patch]
+    for _ in range(ALONG):
+        _move(elements, element, np.flatnonzero(element >= elements.first_curve), points, pairs)
     for round_ in range(ROUNDS):
         if round_ >= LEAST and not _folded(elements, numbers, points[triangles]).any():
             break
-        wanted = _middles(points, pairs)[moving]
-        try:
-            points[moving] = elements.place(element[moving], wanted)
-        except GeometryError:
-            # one that has no place there keeps all others from moving: each for itself
-            for row, node in enumerate(moving.tolist()):
-                points[node] = _one(elements, int(element[node]), wanted[row], points[node])
+        _move(elements, element, np.flatnonzero(element >= 0), points, pairs)
     bad = _folded(elements, numbers, points[triangles]) & (patch >= first)
     return replace(given, points=points), triangles[bad]
+
+
+def _move(elements: Elements, element: Ints, moving: Ints, points: Array, pairs: Ints) -> None:
+    """Move some points to the middle of their neighbours, on their elements."""
+    if not len(moving):
+        return
+    wanted = _middles(points, pairs)[moving]
+    try:
+        points[moving] = elements.place(element[moving], wanted)
+    except GeometryError:
+        # one that has no place there keeps all others from moving: each for itself
+        for row, node in enumerate(moving.tolist()):
+            points[node] = _one(elements, int(element[node]), wanted[row], points[node])
 
 
 def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Array:

@@ -135,7 +135,9 @@ def _with_lines(
             if own or not walls_at:
                 at = place(points[ends[0]])
                 raise GeometryError(f"faces or walls meet where there is no edge, at {at}")
-            meeting: tuple[int, ...] = tuple(sorted({site for p in walls_at for site in of_patch[p]}))
+            meeting: tuple[int, ...] = tuple(
+                sorted({site for p in walls_at for site in of_patch[p]})
+            )
             curve = PlacedCurve(tools[region_of[walls_at[0]]].placer, meeting)
             kind = _kind([p for p in walls_at if _is_sheet(p, walls, first)])
         lines.append(Line(kind, curve, ends))
