@@ -6,7 +6,8 @@
    contracted, and folds smoothed.
 3. Boundary and walls become one complex, which is refined to the chord tolerance.
 4. Cells are put together, and the certificate is measured: the one that traced skeletons have to
-   hold. If it falls short, all is done again with finer tetrahedra.
+   hold. Across every sheet the nearest point must jump. If something falls short, all is done again
+   with finer tetrahedra.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from decomp.sampled.contracting import thin
 from decomp.sampled.extracted import ONE, Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
+from decomp.sampled.jumps import without_jump
 from decomp.sampled.labels import Labeller
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.smoothing import unfolded
@@ -145,11 +147,12 @@ def _attempt(
                 found.certificate.chord_error / tolerance,
             )
             lines = explained(found, tolerance, geometry.sites)
+            lines += without_jump(made, described.radius, region, geometry.sites)
             failures += [f"region {region.name}: {line}" for line in lines]
         result = _Try(None, failures)
         if not failures:
             return _Try(_skeleton(geometry, tolerance, described, regions), [])
-        if not short <= {"volume_error", "chord_error"}:
+        if not short or not short <= {"volume_error", "chord_error"}:
             break
         fineness = finer(fineness, excess)
     return result

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,10 +13,14 @@ import pytest
 import decomp
 from decomp import ways
 from decomp.cli.main import main
+from decomp.complex.model import PatchKind
 from decomp.errors import GeometryError, InputError
 from decomp.medial.result import Method, RegionSkeleton, Skeleton
+from decomp.medial.sheet_surface import SheetSurface
 from decomp.sampled import sampling
+from decomp.sampled.jumps import without_jump
 from decomp.sampled.sampling import sampled_skeleton
+from decomp.sites.site import SiteKind
 from tests.skeleton.computed import skeleton_of
 from tests.solids import SOLIDS
 
@@ -111,6 +116,27 @@ def test_a_skeleton_that_fails_its_certificate_is_refused(
     block = decomp.Geometry(decomp.Block((0, 0, 0), (4, 3, 2)))
     with pytest.raises(GeometryError, match="intrusion is 0, allowed -1"):
         sampled_skeleton(block, 5e-4, lambda what, done: None)
+
+
+def test_a_wall_without_a_jump_is_no_sheet() -> None:
+    """A trim surface of the bracket handed in as a sheet is found out."""
+    made = decomp.skeleton(SOLIDS["bracket"].make(), method="sampled")
+    region = made.regions[0]
+    assert not without_jump(made.complex, made.radius, region, made.sites)
+    trim = next(p for p in made.complex.patches if p.kind is PatchKind.TRIM)
+    edge = next(k for k, site in enumerate(made.sites) if site.kind is SiteKind.EDGE)
+    face = made.sites[edge].name.split("|")[0]
+    pair = next(k for k, site in enumerate(made.sites) if site.name == face), edge
+    surface = made.complex.patches[region.sheets[0].patch].surface
+    assert isinstance(surface, SheetSurface)
+    points = made.complex.points[np.unique(trim.triangles)]
+    feet = surface.incidence.feet(pair, points)
+    false = replace(trim, surface=SheetSurface(surface.incidence, pair, points, feet))
+    mesh = replace(made.complex, patches=(*made.complex.patches, false))
+    sheet = replace(region.sheets[0], sites=pair, patch=len(mesh.patches) - 1)
+    wrong = replace(region, sheets=(*region.sheets, sheet))
+    (line,) = without_jump(mesh, made.radius, wrong, made.sites)
+    assert line.startswith(f"no jump across the sheet of {face} and ")
 
 
 def test_the_files_of_a_sampled_skeleton_say_so(tmp_path: Path) -> None:
