@@ -45,13 +45,16 @@ class Bisected:
         keys = edges[:, 0] * len(self.points) + edges[:, 1]
         return np.asarray(np.isin(keys, known))
 
-    def sagitta(self, edges: Ints) -> Array:
-        """How far the middles of edges (e, 2) are off the boundary's lines; 0 for all others."""
-        keys = self._keys(edges)
+    def line_edges(self, edges: Ints) -> Bools:
+        """Which of some edges (e, 2) are parts of the boundary's lines, where patches meet."""
         own = self._keys(self.triangles[:, SIDES]).reshape(-1)
         pairs = np.unique(np.stack([own, np.repeat(self.patches, 3)], axis=1), axis=0)
         lines, many = np.unique(pairs[:, 0], return_counts=True)
-        some = np.flatnonzero(np.isin(keys, lines[many > 1]))
+        return np.asarray(np.isin(self._keys(edges), lines[many > 1]))
+
+    def sagitta(self, edges: Ints) -> Array:
+        """How far the middles of edges (e, 2) are off the boundary's lines; 0 for all others."""
+        some = np.flatnonzero(self.line_edges(edges))
         result = np.zeros(len(edges))
         result[some] = norm(self._middles(edges[some]) - self.points[edges[some]].mean(axis=1))
         return result
@@ -146,7 +149,7 @@ class Bisected:
 
     def _middles(self, edges: Ints) -> Array:
         """Where edges (k, 2) are halved; those on boundaries exactly on these."""
-        middle = self.points[edges].mean(axis=1)
+        middle: Array = self.points[edges].mean(axis=1)
         keys = edges[:, 0] * len(self.points) + edges[:, 1]
         own = self._keys(self.triangles[:, SIDES])
         rows, sides = np.nonzero(np.isin(own, keys))

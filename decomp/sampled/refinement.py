@@ -85,10 +85,10 @@ class Refiner:
         own = np.zeros(len(edges), dtype=np.bool_)
         own[which[mesh.region == self._region]] = True
         a, b = labels.site[edges].T
-        split = own & mesh.boundary_edges(edges) & (a != b)
+        split = own & mesh.boundary_edges(edges) & ~mesh.line_edges(edges)
         for k in np.flatnonzero(split).tolist():
             u, v = edges[k].tolist()
-            split[k] = a[k] not in labels.at(v) and b[k] not in labels.at(u)
+            split[k] = u in labels.touching and v in labels.touching
         if split.any():
             mesh.halve(edges, which, split)
             return True

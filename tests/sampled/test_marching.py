@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
 from decomp.cells.surface import open_edges
 from decomp.sampled.contracting import Contractor
@@ -52,7 +52,7 @@ def test_a_strip_without_width_is_contracted_and_the_rest_stays() -> None:
     triangles = np.array([[0, 1, 4], [4, 1, 2], [0, 5, 3], [5, 2, 3], [0, 4, 5], [4, 2, 5]])
     wanted = np.array([False] * 4 + [True] * 2)
     fixed = np.array([True] * 4 + [False] * 2)
-    sites = [(1, 2, 3)] * 6
+    sites: list[tuple[int, ...]] = [(1, 2, 3)] * 6
     none = np.empty((0, 2), dtype=np.int64)
     sheet = np.ones(6, dtype=np.bool_)
     become = Contractor(points, sites, triangles, fixed, wanted, sheet, none, 1e-9).run()
@@ -74,7 +74,7 @@ def test_what_would_close_a_hole_is_not_contracted() -> None:
     edges = np.array([[0, 1], [1, 2], [0, 2]])
     fixed = np.zeros(6, dtype=np.bool_)
     wanted, sheet = np.zeros(6, dtype=np.bool_), np.ones(6, dtype=np.bool_)
-    sites = [(1, 2)] * 6
+    sites: list[tuple[int, ...]] = [(1, 2)] * 6
     become = Contractor(
         points.astype(float), sites, triangles, fixed, wanted, sheet, edges, 0
     ).run()
