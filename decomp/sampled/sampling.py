@@ -56,8 +56,8 @@ SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 8
 """So often walls are smoothed, and what is still folded then is contracted."""
-LIMIT = 600.0
-"""Seconds after which no further try is begun."""
+LIMIT, FILLING = 180.0, 300.0
+"""Seconds after which no further try is begun, and that TetWild may compute in each."""
 
 Progress = Callable[[str, float], None]
 
@@ -115,7 +115,7 @@ def _attempt(
 ) -> _Try:
     size = COARSE * floor
     given = interior(
-        geometry, size, EPSILON * size, TimeLimit.of_work(LIMIT), lambda what: tell(what, share)
+        geometry, size, EPSILON * size, TimeLimit.of_work(FILLING), lambda what: tell(what, share)
     )
     owner = site_owners(geometry.sites, list(geometry.regions))
     tools = [tools_of(geometry, number, owner) for number in range(len(geometry.regions))]

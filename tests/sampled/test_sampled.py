@@ -30,7 +30,6 @@ AGREES = [
     pytest.param("fichera", marks=pytest.mark.slow),
     pytest.param("through hole", marks=pytest.mark.slow),
     pytest.param("blind hole", marks=pytest.mark.slow),
-    pytest.param("pocket", marks=pytest.mark.slow),
 ]
 """Planar faces, reentrant edges and vertices, round faces and edges."""
 
