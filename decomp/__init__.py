@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from decomp.boundary.topology import Face as Face
     from decomp.boundary.topology import RegionBoundary as RegionBoundary
     from decomp.boundary.topology import Vertex as Vertex
-    from decomp.compute import skeleton as skeleton
     from decomp.csg.model import Model as Model
     from decomp.csg.model import Region as Region
     from decomp.csg.model import model as model
@@ -45,6 +44,7 @@ if TYPE_CHECKING:
     from decomp.medial.result import Skeleton as Skeleton
     from decomp.meshing import mesh as mesh
     from decomp.tetra.mesh import TetMesh as TetMesh
+    from decomp.ways import skeleton as skeleton
 
 _HOMES = {
     "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
@@ -60,7 +60,6 @@ _HOMES = {
         "Torus",
     ),
     "decomp.csg.solid": ("Solid", "intersection", "union"),
-    "decomp.compute": ("skeleton",),
     "decomp.errors": ("DecompError",),
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
@@ -68,6 +67,7 @@ _HOMES = {
     "decomp.medial.result": ("Skeleton",),
     "decomp.meshing": ("mesh",),
     "decomp.tetra.mesh": ("TetMesh",),
+    "decomp.ways": ("skeleton",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -62,15 +62,18 @@ def run(options: argparse.Namespace) -> None:
 
 def as_text(skeleton: Skeleton, options: argparse.Namespace, files: list[str]) -> list[str]:
     """The cells as lines for people."""
+    from decomp.cli.computing import method_text
+
     cells = [
         cell
         for region in skeleton.regions
         for cell in (region.cells if options.cells == "skeleton" else region.face_cells)
     ]
     width = max(len(cell.name) for cell in cells)
+    methods = [line for region in skeleton.regions for line in method_text(region)]
     lines = [f"{len(cells)} cell{'' if len(cells) == 1 else 's'} in {options.output}"]
     lines += [
         f"  {cell.name:<{width}}  volume {cell.volume:<14.9g}  {file}"
         for cell, file in zip(cells, files, strict=False)
     ]
-    return lines
+    return lines + methods

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from decomp.plain import plain
 
 if TYPE_CHECKING:
-    from decomp.medial.result import Skeleton
+    from decomp.medial.result import RegionSkeleton, Skeleton
 
 TOLERANCE = 5e-4
 LARGEST = 0.1
@@ -32,6 +32,14 @@ def add_options(
         help="largest distance of a triangle from its exact surface, relative to the model's "
         f"diagonal (default {TOLERANCE:g})",
     )
+    parser.add_argument(
+        "--method",
+        choices=("auto", "traced", "sampled"),
+        default="traced",
+        help="how the skeleton is found: traced curve by curve (default); sampled, as walls "
+        "between points with different nearest sites, placed exactly, which holds for simple parts "
+        "without axes; auto: traced, and sampled where that fails",
+    )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
@@ -41,16 +49,26 @@ def computed(options: argparse.Namespace) -> Skeleton:
     Raises:
         DecompError: the model cannot be read, is no solid, or its skeleton cannot be certified.
     """
-    from decomp.compute import skeleton
     from decomp.formats import load
     from decomp.geometry import Geometry
+    from decomp.ways import skeleton
 
     with reporting(options.quiet) as report:
         report(f"reading {options.model.name}", 0.0)
         model = load(options.model)
         report(f"computing the boundary of {model.name}", 0.0)
         geometry = Geometry(model)
-        return skeleton(geometry, options.tolerance, progress=report)
+        return skeleton(geometry, options.tolerance, report, options.method)
+
+
+def method_text(region: RegionSkeleton) -> list[str]:
+    """How a region's skeleton was found, and why it was not traced; nothing of one that was."""
+    from decomp.medial.result import Method
+
+    if region.method is Method.TRACED:
+        return []
+    why = "" if region.cause is None else f": tracing failed, as {region.cause}"
+    return [f"  method     {region.method.value:>7}{why}"]
 
 
 @contextmanager

@@ -46,7 +46,12 @@ def run(options: argparse.Namespace) -> None:
     ]
     if options.json:
         regions = [
-            {"name": region.name, "sheets": own}
+            {
+                "name": region.name,
+                "method": region.method.value,
+                "cause": region.cause,
+                "sheets": own,
+            }
             for region, own in zip(skeleton.regions, rows, strict=True)
         ]
         print(json.dumps({"model": skeleton.name, "regions": regions}, indent=1))
@@ -83,10 +88,13 @@ def sheet_rows(
 
 def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
     """The tables as lines for people."""
+    from decomp.cli.computing import method_text
+
     lines = [f"model {skeleton.name}"]
     for region, own in zip(skeleton.regions, rows, strict=True):
         counts = Counter((row["kind"], row["degree"]) for row in own)
         lines += ["", f"region {region.name}: {len(own)} sheet{'' if len(own) == 1 else 's'}"]
+        lines += method_text(region)
         table = [
             (
                 str(row["id"]),

@@ -118,6 +118,8 @@ def as_text(skeleton: Skeleton, tolerance: float, figures: bool) -> list[str]:
 
 
 def _region_text(region: RegionSkeleton, tolerance: float, figures: bool) -> list[str]:
+    from decomp.cli.computing import method_text
+
     curves = [locus for locus in region.reflexive if locus.dimension == 1]
     rows = [
         ("sheets", len(region.sheets), f"area {sum(s.area for s in region.sheets):.9g}"),
@@ -131,7 +133,7 @@ def _region_text(region: RegionSkeleton, tolerance: float, figures: bool) -> lis
         ("cells", len(region.cells), f"volume {sum(c.volume for c in region.cells):.9g}"),
         ("Euler", region.certificate.euler, f"region {region.certificate.expected_euler}"),
     ]
-    lines = [f"region {region.name}"]
+    lines = [f"region {region.name}", *method_text(region)]
     lines += [f"  {name:<10} {number:>7}  {more}".rstrip() for name, number, more in rows]
     lines.append(f"  {_verdict(region.certificate, tolerance)}")
     if figures:

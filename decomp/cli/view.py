@@ -32,7 +32,7 @@ def register(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute if need be, write or show."""
-    from decomp.cli.computing import computed
+    from decomp.cli.computing import computed, method_text
     from decomp.files.suffixes import known_suffix
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
@@ -42,14 +42,17 @@ def run(options: argparse.Namespace) -> None:
     suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
     check_outputs(options.output, [options.model])
     is_model = options.model.suffix.lower() in MODELS
-    scene = scene_of(options.model, computed(options) if is_model else None)
+    skeleton = computed(options) if is_model else None
+    scene = scene_of(options.model, skeleton)
     for path, suffix in zip(options.output, suffixes, strict=True):
         encode = page.encoded if suffix == ".html" else image.encoded
         write_whole(path, encode(scene))
     if not options.output:
         show(scene)
     elif not options.quiet:
+        regions = [] if skeleton is None else skeleton.regions
         say([f"written: {', '.join(str(path) for path in options.output)}"])
+        say(line for region in regions for line in method_text(region))
 
 
 def show(scene: Scene) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from pathlib import Path
 
 from decomp.boundary.topology import RegionBoundary
@@ -10,6 +11,13 @@ from decomp.complex.model import Complex
 from decomp.parity import Parity as Parity
 from decomp.sites.site import Site
 from decomp.vectors import Array
+
+
+class Method(Enum):
+    """How a skeleton was found: by tracing its curves, or as walls between sampled labels."""
+
+    TRACED = "traced"
+    SAMPLED = "sampled"
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +166,8 @@ class RegionSkeleton:
             whether the patch's normal points out of the region.
         cells: skeleton cells, bounded by boundary faces and sheets alone.
         face_cells: one for each face, bounded by trim surfaces too.
+        method: how it was found.
+        cause: why it was not traced, where that was tried first.
     """
 
     name: str
@@ -172,6 +182,8 @@ class RegionSkeleton:
     cells: tuple[Cell, ...]
     face_cells: tuple[Cell, ...]
     certificate: Certificate
+    method: Method = Method.TRACED
+    cause: str | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,6 +47,8 @@ def _region(
 
     return {
         "name": region.name,
+        "method": region.method.value,
+        "cause": region.cause,
         "sheets": [
             {
                 "id": first_sheet + k,

@@ -12,7 +12,7 @@ import numpy as np
 
 from decomp.cells.surface import used_points
 from decomp.complex.model import LineKind
-from decomp.medial.result import Parity, RegionSkeleton, Skeleton, SkeletonLine
+from decomp.medial.result import Method, Parity, RegionSkeleton, Skeleton, SkeletonLine
 from decomp.medial.sheet_kinds import SheetKind, sheet_kinds
 from decomp.vectors import Array, Ints
 from decomp.voronoi import Kind
@@ -21,6 +21,7 @@ KINDS = ("sheet", "seam", "trim", "rim", "reflexive", "face", "interface", "edge
 """The kinds of elements, by number."""
 
 SURFACES = tuple(Kind)
+METHODS = tuple(Method)
 PARITIES = {None: -1, Parity.EVEN: 0, Parity.ODD: 1}
 
 
@@ -44,6 +45,7 @@ class Elements:
         degree: of that surface's equation, -1 where none is known.
         sheet_names: `region/sheet-N` by number.
         sheet_kinds: what each sheet lies on, by number; empty where that is not told.
+        methods: of each region (r,) an index into `METHODS`; empty where that is not told.
     """
 
     points: Array
@@ -61,6 +63,7 @@ class Elements:
     degree: Ints
     sheet_names: tuple[str, ...]
     sheet_kinds: tuple[SheetKind, ...]
+    methods: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +128,7 @@ def elements(skeleton: Skeleton, *, boundary: bool = False, trims: bool = False)
             for k in range(len(region.sheets))
         ),
         tuple(kinds),
+        tuple(METHODS.index(region.method) for region in skeleton.regions),
     )
 
 

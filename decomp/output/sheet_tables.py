@@ -34,6 +34,11 @@ class Table:
     columns: tuple[str, ...] = ()
 
 
+def region_tables(methods: Sequence[int]) -> dict[str, Table]:
+    """The table `region_method`: 0 for each region that was traced, 1 for one that was sampled."""
+    return {"region_method": Table(np.array(methods, dtype=np.int32))} if methods else {}
+
+
 def sheet_tables(kinds: Sequence[SheetKind], labels: Sequence[str]) -> dict[str, Table]:
     """The tables by name, none if there are no sheets.
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.output.elements import Elements
-from decomp.output.sheet_tables import Table, sheet_tables
+from decomp.output.sheet_tables import Table, region_tables, sheet_tables
 
 Arrays: TypeAlias = Mapping[str, NDArray[Any]]
 VTK_TRIANGLE, VTK_LINE, VTK_VERTEX = 5, 3, 1
@@ -31,7 +31,8 @@ def encoded(parts: Elements, at_points: Arrays | None = None, more: Arrays | Non
 
     Point data: radius. Cell data: sheet, sites, parity, surface (what a sheet lies on, an index
     into `elements.SURFACES`) and its degree, kind (an index into `elements.KINDS`), region, seam;
-    -1 stands for none. Field data: what every sheet lies on, by its number (`sheet_tables`).
+    -1 stands for none. Field data: what every sheet lies on, by its number (`sheet_tables`), and
+    how each region's skeleton was found (`region_tables`).
     """
     groups = (parts.triangles, parts.segments, parts.singles)
     sizes = np.repeat([3, 2, 1], [len(group) for group in groups])
@@ -58,7 +59,7 @@ def encoded(parts: Elements, at_points: Arrays | None = None, more: Arrays | Non
         f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{order}" '
         'header_type="UInt64">',
         "<UnstructuredGrid>",
-        *_field(sheet_tables(parts.sheet_kinds, parts.sheet_names)),
+        *_field(sheet_tables(parts.sheet_kinds, parts.sheet_names) | region_tables(parts.methods)),
         f'<Piece NumberOfPoints="{len(parts.points)}" NumberOfCells="{len(sizes)}">',
         *_section("Points", {"Points": parts.points}),
         *_section("Cells", cells),

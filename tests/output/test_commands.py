@@ -31,9 +31,9 @@ def computing(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[..., Any]],
 
     def put(function: Callable[..., Any]) -> None:
         module = SimpleNamespace(skeleton=function)
-        monkeypatch.setitem(sys.modules, "decomp.compute", module)
+        monkeypatch.setitem(sys.modules, "decomp.ways", module)
 
-    put(lambda geometry, tolerance, progress: block().skeleton)
+    put(lambda geometry, tolerance, progress, method: block().skeleton)
     return put
 
 
@@ -66,7 +66,7 @@ def test_failing_figures_are_marked(
     region = replace(
         block().skeleton.regions[0], certificate=replace(HOLDS, euler=3, residual=float("nan"))
     )
-    computing(lambda geometry, tolerance, progress: replace(block().skeleton, regions=(region,)))
+    computing(lambda *_: replace(block().skeleton, regions=(region,)))
     assert main(["skeleton", str(model), "--certificate"]) == 0
     text = capsys.readouterr().out
     assert "certificate FAILS: residual, euler\n" in text
@@ -87,7 +87,9 @@ def test_options_reach_the_computation(
 ) -> None:
     seen = []
 
-    def compute(geometry: Any, tolerance: float, progress: Callable[[str, float], None]) -> Any:
+    def compute(
+        geometry: Any, tolerance: float, progress: Callable[[str, float], None], method: str
+    ) -> Any:
         progress("half", 0.5)
         seen.append((geometry.diagonal, tolerance))
         return block().skeleton

@@ -94,9 +94,10 @@ def test_json(tmp_path: Path) -> None:
     assert list(data) == ["model", "diagonal", "regions"]
     region = data["regions"][0]
     assert list(region) == [
-        "name", "sheets", "seams", "junctions", "reflexive", "cells", "certificate",
+        "name", "method", "cause", "sheets", "seams", "junctions", "reflexive", "cells",
+        "certificate",
     ]  # fmt: skip
-    counts = {key: len(region[key]) for key in list(region)[1:6]}
+    counts = {key: len(region[key]) for key in list(region)[3:8]}
     assert counts == {"sheets": 13, "seams": 12, "junctions": 12, "reflexive": 0, "cells": 6}
     assert region["sheets"][0] == {
         "id": 0,

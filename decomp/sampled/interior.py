@@ -1,0 +1,132 @@
+"""Tetrahedra that fill all regions and conform to their exact boundaries.
+
+TetWild fills the boundary alone, coarsely; its nodes are then moved onto the exact faces, edges and
+vertices as those of any mesh are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from decomp.cells.surface import volume
+from decomp.complex.boundary import BoundaryMesh, boundary_mesh
+from decomp.complex.refine import refined
+from decomp.complex.refine_elements import Elements
+from decomp.errors import GeometryError
+from decomp.geometry import Geometry
+from decomp.medial.result import Cell
+from decomp.tetra.cells import cell_map
+from decomp.tetra.child import Settings, TimeLimit
+from decomp.tetra.chords import chords
+from decomp.tetra.features import usual_epsilon
+from decomp.tetra.layout import Layout, layout
+from decomp.tetra.preparation import Prepared
+from decomp.tetra.shortening import lengths_asked
+from decomp.tetra.sizes import Wishes
+from decomp.tetra.soup import soup
+from decomp.tetra.strayed import strayed
+from decomp.tetra.surface import MeshSurface, RegionSurface
+from decomp.tetra.tetrahedra import filled
+from decomp.tolerance import TOLERANCE
+from decomp.vectors import Array, Ints, place
+
+CHORD = 0.4
+"""How far the triangles for TetWild may be off the boundary, in parts of its epsilon."""
+EXACT = 1e-12
+"""Nodes are on their faces to this part of the model's diagonal."""
+
+
+@dataclass(frozen=True, eq=False)
+class Interior:
+    """Tetrahedra of all regions.
+
+    Args:
+        points: (n, 3).
+        tets: (m, 4), positively oriented.
+        region: (m,) the region of each.
+        triangles: (k, 3) of boundaries and interfaces, counterclockwise seen against the normals
+            of the patches that they are on.
+        patches: (k,) these patches, of `surface`.
+        surface: the boundaries that the mesh conforms to.
+        plan: which patches meet along their lines.
+        elements: of the plan's complex.
+    """
+
+    points: Array
+    tets: Ints
+    region: Ints
+    triangles: Ints
+    patches: Ints
+    surface: BoundaryMesh
+    plan: Layout
+    elements: Elements
+
+
+def interior(
+    geometry: Geometry, size: float, epsilon: float, limit: TimeLimit, tell: Callable[[str], None]
+) -> Interior:
+    """Fill a model.
+
+    Args:
+        geometry: of the model.
+        size: the longest edges wanted, in model units.
+        epsilon: how far TetWild may leave the boundary, in model units; less where edges are short
+            or sharp.
+        limit: of TetWild.
+        tell: is told what is being done.
+
+    Raises:
+        GeometryError: nodes cannot be moved onto the boundary.
+        MeshingError: TetWild fails.
+    """
+    epsilon = min(epsilon, usual_epsilon(geometry, size))
+    surface = boundary_mesh(geometry, CHORD * epsilon)
+    mesh, _ = refined(surface.complex, CHORD * epsilon)
+    regions = []
+    for number, boundary in enumerate(geometry.regions):
+        sides = surface.face_sides(number, len(boundary.faces))
+        every = tuple(side for own in sides for side in own)
+        faces = tuple(face.name for face in boundary.faces)
+        content = volume(mesh, every, boundary.bounds.mean(axis=0))
+        whole = Cell(f"{boundary.name}/all", faces, every, content)
+        regions.append(RegionSurface(boundary.name, boundary, sides, {}, (whole,)))
+    given = MeshSurface(geometry.sites, mesh, CHORD * epsilon, tuple(regions))
+    known = cell_map(given)
+    plan = layout(given, known)
+    elements = Elements(plan.complex)
+    settings = Settings(size, epsilon)
+    wish = Wishes(mesh.points, np.full(len(mesh.points), size))
+    sizes = np.full(len(geometry.regions), size)
+    prepared = Prepared(
+        geometry,
+        given,
+        known,
+        plan,
+        elements,
+        soup(plan, wish, settings),
+        settings,
+        None,
+        0.0,
+        sizes,
+        lengths_asked(geometry, known, plan, sizes),
+        wish,
+        chords(given, sizes, CHORD * epsilon),
+    )
+    fit = filled(prepared, limit, lambda what, done: tell(what)).fit
+    left = strayed(fit.points, fit.tagged, plan, elements, TOLERANCE * geometry.diagonal)
+    if len(left):
+        at = place(fit.points[left[0]])
+        raise GeometryError(f"tetrahedra do not conform to the boundary near {at}")
+    return Interior(
+        fit.points,
+        fit.tets,
+        known.region[known.cell[fit.part]],
+        fit.tagged.triangles,
+        fit.tagged.patches,
+        surface,
+        plan,
+        elements,
+    )

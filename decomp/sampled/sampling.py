@@ -1,0 +1,253 @@
+"""The sampled skeleton of a model: all steps in order.
+
+1. Tetrahedra fill the regions and conform to their exact boundaries; they are made fine where the
+   labels of their nodes, the nearest sites, ask for it.
+2. The walls between labels are extracted, their vertices placed exactly, what has no width
+   contracted, and folds smoothed.
+3. Boundary and walls become one complex, which is refined to the chord tolerance.
+4. Cells are put together, and the certificate is measured: the one that traced skeletons have to
+   hold. Across every sheet the nearest point must jump. If something falls short, all is done again
+   with finer tetrahedra.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import monotonic
+
+import numpy as np
+
+from decomp.certificate.certificate import VOLUME, explained, shortcomings
+from decomp.complex.refine import refined
+from decomp.errors import GeometryError
+from decomp.fineness import fine_enough, finer
+from decomp.geometry import Geometry
+from decomp.medial.result import RegionSkeleton, Skeleton
+from decomp.sampled.bisecting import Bisected
+from decomp.sampled.contracting import thin
+from decomp.sampled.extracted import ONE, Extracted, contracted
+from decomp.sampled.extraction import Extractor
+from decomp.sampled.interior import Interior, interior
+from decomp.sampled.jumps import without_jump
+from decomp.sampled.labels import Labeller
+from decomp.sampled.refinement import Refiner
+from decomp.sampled.smoothing import unfolded
+from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
+from decomp.tetra.cells import site_owners
+from decomp.tetra.child import MeshingError, TimeLimit
+from decomp.tracing.queries import region_queries
+from decomp.vectors import norm
+
+FLOORS = (12.0, 18.0, 27.0, 40.0, 60.0)
+"""Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
+where the walls are close to the boundary."""
+COARSE = 2.0
+"""The tetrahedra that all begins with are so many times as long."""
+EPSILON = 0.02
+"""How far these may leave the boundary at first, in parts of their edges."""
+AGAIN = 10
+"""So often tetrahedra are refined around walls that cannot be placed,"""
+FINEST = 0.01
+"""to this part of the floor at the most."""
+FINENESSES = 3
+"""How often the tolerance is made finer for the volume's sake."""
+SHARE = 0.7
+"""The part of the tolerance that the boundary's edges may use up."""
+UNFOLDINGS = 8
+"""So often walls are smoothed, and what is still folded then is contracted."""
+LIMIT, FILLING = 180.0, 300.0
+"""Seconds after which no further try is begun, and that TetWild may compute in each."""
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """What has come of a try: a skeleton, or what is wrong with it."""
+
+    skeleton: Skeleton | None
+    failures: list[str]
+
+
+def sampled_skeleton(
+    geometry: Geometry, tolerance: float, tell: Progress, limit: float = LIMIT
+) -> Skeleton:
+    """The skeleton as the walls between labels.
+
+    Args:
+        geometry: of the model.
+        tolerance: chord tolerance, relative to the model's diagonal.
+        tell: of the progress.
+        limit: seconds after which no further try is begun.
+
+    Raises:
+        GeometryError: no try holds its certificate; says what the first and the last one lacked.
+    """
+    begun = monotonic()
+    reasons: list[str] = []
+    fineness = float(fine_enough(geometry, tolerance, SHARE).min())
+    for number, floor in enumerate(FLOORS):
+        if reasons and monotonic() - begun > limit:
+            break
+        share = number / len(FLOORS)
+        tell(f"sampling{'' if not number else ' more finely'}", share)
+        try:
+            found = _attempt(geometry, tolerance, fineness, geometry.diagonal / floor, tell, share)
+        except (GeometryError, MeshingError) as error:
+            reasons.append(str(error))
+            continue
+        if found.skeleton is not None:
+            return found.skeleton
+        reasons.append("; ".join(found.failures))
+    tried = f"{len(reasons)} tr{'y' if len(reasons) == 1 else 'ies'}"
+    last = f"; the last: {reasons[-1]}" if reasons[-1] != reasons[0] else ""
+    raise GeometryError(f"no sampled skeleton holds in {tried}; the first: {reasons[0]}{last}")
+
+
+def _attempt(
+    geometry: Geometry,
+    tolerance: float,
+    fineness: float,
+    floor: float,
+    tell: Progress,
+    share: float,
+) -> _Try:
+    size = COARSE * floor
+    given = interior(
+        geometry, size, EPSILON * size, TimeLimit.of_work(FILLING), lambda what: tell(what, share)
+    )
+    owner = site_owners(geometry.sites, list(geometry.regions))
+    tools = [tools_of(geometry, number, owner) for number in range(len(geometry.regions))]
+    tell("labelling", share)
+    mesh = Bisected(given)
+    extracted = _walls(geometry, given, mesh, tools, floor, SHARE * fineness * geometry.diagonal)
+    lost = sum(int(found.lost.sum()) for found in extracted)
+    if lost:
+        at = next(found.points[found.lost][0] for found in extracted if found.lost.any())
+        where = ", ".join(f"{x:.6g}" for x in at)
+        raise GeometryError(f"{lost} points of walls have no place, one near ({where})")
+    tell("triangulating sheets", share)
+    shown = _smooth(geometry, given, mesh, tools, extracted)
+    result = _Try(None, ["nothing was tried"])
+    for _ in range(FINENESSES):
+        tell("refining", share)
+        made, _ = refined(shown.complex, fineness * geometry.diagonal)
+        tell("measuring", share)
+        described = Described(geometry, given, tools, shown, made)
+        regions, failures, short = [], [], set()
+        excess = 1.0
+        for number in range(len(geometry.regions)):
+            region, found = described.region(number)
+            regions.append(region)
+            short |= set(shortcomings(found.certificate, tolerance))
+            excess = max(
+                excess,
+                found.certificate.volume_error / VOLUME,
+                found.certificate.chord_error / tolerance,
+            )
+            lines = explained(found, tolerance, geometry.sites)
+            lines += without_jump(made, described.radius, region, geometry.sites)
+            failures += [f"region {region.name}: {line}" for line in lines]
+        result = _Try(None, failures)
+        if not failures:
+            return _Try(_skeleton(geometry, tolerance, described, regions), [])
+        if not short or not short <= {"volume_error", "chord_error"}:
+            break
+        fineness = float(finer(np.array([fineness]), np.array([excess]))[0])
+    return result
+
+
+def _smooth(
+    geometry: Geometry,
+    given: Interior,
+    mesh: Bisected,
+    tools: list[RegionTools],
+    extracted: list[Extracted],
+) -> Drawn:
+    """The complex, smoothed; triangles that stay folded are contracted."""
+    boundary = len(given.plan.complex.patches)
+    for left in reversed(range(UNFOLDINGS)):
+        shown = drawn(geometry, given, mesh, tools, extracted)
+        smooth, folded = unfolded(shown.complex, boundary)
+        if not left or not len(folded):
+            break
+        bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
+        fewer = []
+        for found, vertices, tool in zip(extracted, shown.vertices, tools, strict=True):
+            moved = replace(found, points=smooth.points[vertices])
+            corners = np.sort(vertices[found.triangles], axis=1).tolist()
+            wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
+            wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
+            least = ONE * geometry.diagonal
+            fewer.append(contracted(moved, wanted, moved.short_edges(least), least))
+        extracted = fewer
+    return replace(shown, complex=smooth)
+
+
+def _walls(
+    geometry: Geometry,
+    given: Interior,
+    mesh: Bisected,
+    tools: list[RegionTools],
+    floor: float,
+    chord: float,
+) -> list[Extracted]:
+    """The walls of all regions; tetrahedra around those that cannot be placed are refined."""
+    labellers, known = [], []
+    for number, tool in enumerate(tools):
+        queries = region_queries(geometry.index, number)
+        face_of_patch = np.full(len(given.plan.complex.patches), -1, dtype=np.int64)
+        sides = given.surface.face_sides(number, len(geometry.regions[number].faces))
+        for face, own in enumerate(sides):
+            face_of_patch[[patch for patch, _ in own]] = face
+        labeller = Labeller(queries, tool.incidence, face_of_patch)
+        refiner = Refiner(queries, labeller, tool.placer, number)
+        labellers.append((labeller, refiner))
+        known.append(labeller.labels(mesh, None))
+    found: list[Extracted] = []
+    for left in reversed(range(AGAIN)):
+        for number, (labeller, refiner) in enumerate(labellers):
+            known[number] = refiner.refined(
+                mesh, labeller.labels(mesh, known[number]), floor, chord
+            )
+        found = []
+        for number, (labeller, _) in enumerate(labellers):
+            known[number] = labeller.labels(mesh, known[number])
+            tool = tools[number]
+            extractor = Extractor(
+                region_queries(geometry.index, number),
+                tool.placer,
+                tool.owner,
+                geometry.regions[number].diagonal,
+            )
+            found.append(extractor.extracted(mesh, known[number], number))
+        if not left or not _refined_where_lost(mesh, found, floor):
+            break
+    return found
+
+
+def _refined_where_lost(mesh: Bisected, found: list[Extracted], floor: float) -> bool:
+    """Refine the tetrahedra in which walls could not be placed; whether there were any."""
+    wanted = np.zeros(len(mesh.tets), dtype=np.bool_)
+    for number, walls in enumerate(found):
+        rows = np.flatnonzero(mesh.region == number)
+        wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
+    corners = mesh.points[mesh.tets]
+    wanted &= norm(corners - corners[:, [1, 2, 3, 0]]).max(axis=1) > FINEST * floor
+    mesh.shorten(wanted)
+    return bool(wanted.any())
+
+
+def _skeleton(
+    geometry: Geometry, tolerance: float, described: Described, regions: list[RegionSkeleton]
+) -> Skeleton:
+    return Skeleton(
+        geometry.model.name,
+        geometry.diagonal,
+        tolerance * geometry.diagonal,
+        geometry.sites,
+        described.mesh,
+        described.radius,
+        tuple(regions),
+    )

@@ -1,0 +1,156 @@
+"""Sampled skeletons are the traced ones; what cannot be had is refused, and nothing is silent."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp import ways
+from decomp.cli.main import main
+from decomp.complex.model import PatchKind
+from decomp.errors import GeometryError, InputError
+from decomp.medial.result import Method, RegionSkeleton, Skeleton
+from decomp.medial.sheet_surface import SheetSurface
+from decomp.sampled import sampling
+from decomp.sampled.jumps import without_jump
+from decomp.sampled.sampling import sampled_skeleton
+from decomp.sites.site import SiteKind
+from tests.skeleton.computed import skeleton_of
+from tests.solids import SOLIDS
+
+AGREES = [
+    "block",
+    "bracket",
+    pytest.param("fichera", marks=pytest.mark.slow),
+    pytest.param("through hole", marks=pytest.mark.slow),
+    pytest.param("blind hole", marks=pytest.mark.slow),
+]
+"""Planar faces, reentrant edges and vertices, round faces and edges."""
+
+
+def areas(skeleton: Skeleton, region: RegionSkeleton) -> dict[frozenset[str], float]:
+    """The area of the sheets between each two sites."""
+    found: Counter[frozenset[str]] = Counter()
+    for sheet in region.sheets:
+        found[frozenset(skeleton.sites[k].name for k in sheet.sites)] += sheet.area  # type: ignore[assignment]
+    return dict(found)
+
+
+@pytest.mark.parametrize("name", AGREES)
+def test_a_sampled_skeleton_is_the_traced_one(name: str) -> None:
+    traced = skeleton_of(name)
+    found = decomp.skeleton(SOLIDS[name].make(), method="sampled")
+    one, two = found.regions[0], traced.regions[0]
+    assert (one.method, two.method) == (Method.SAMPLED, Method.TRACED)
+    ours, theirs = areas(found, one), areas(traced, two)
+    assert ours.keys() == theirs.keys()
+    for pair, area in theirs.items():
+        assert ours[pair] == pytest.approx(area, rel=1e-2), pair
+    for what in ("sheets", "seams", "trims", "rims", "junctions", "cells", "face_cells"):
+        assert len(getattr(one, what)) == len(getattr(two, what)), what
+    volumes = {cell.name: cell.volume for cell in two.cells}
+    assert {cell.name for cell in one.cells} == volumes.keys()
+    for cell in one.cells:
+        assert cell.volume == pytest.approx(volumes[cell.name], rel=5e-3)
+    assert one.certificate.euler == SOLIDS[name].euler
+    assert one.certificate.residual <= 1e-12
+    assert one.certificate.chord_error <= 5e-4
+    assert one.certificate.coverage <= 1e-3
+    assert one.certificate.flipped == one.certificate.open_cells == 0
+
+
+def test_junctions_of_a_block_are_where_they_must_be() -> None:
+    found = decomp.skeleton(decomp.Block((0, 0, 0), (4, 3, 2)), method="sampled")
+    inner = [j for j in found.regions[0].junctions if j.radius > 0]
+    points = {tuple(np.round(found.complex.points[j.vertex], 12).tolist()) for j in inner}
+    assert points == {(x, y, 1.0) for x in (1.0, 3.0) for y in (1.0, 2.0)}
+
+
+def test_where_tracing_fails_it_is_sampled_and_the_cause_is_told(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fails(*_: object) -> Skeleton:
+        raise GeometryError("a seam goes astray at (1, 2, 3)")
+
+    monkeypatch.setattr(ways, "traced_skeleton", fails)
+    model, out = tmp_path / "block.geo", tmp_path / "block.json"
+    model.write_text("algebraic3d\nsolid b = orthobrick(0,0,0; 4,3,2);\ntlo b;\n")
+    assert main(["skeleton", str(model), "-o", str(out)]) == 0
+    text = capsys.readouterr().out
+    assert "  method     sampled: tracing failed, as a seam goes astray at (1, 2, 3)\n" in text
+    region = json.loads(out.read_text())["regions"][0]
+    assert (region["method"], region["cause"]) == ("sampled", "a seam goes astray at (1, 2, 3)")
+    assert main(["skeleton", str(model), "--method", "traced"]) == 3
+    assert "a seam goes astray" in capsys.readouterr().err
+
+
+def test_what_neither_way_gives_is_refused_with_both_causes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The axis of a rod is no wall between labels: its balls end nowhere, and that is seen."""
+
+    def fails(*_: object) -> Skeleton:
+        raise GeometryError("a seam goes astray")
+
+    monkeypatch.setattr(ways, "traced_skeleton", fails)
+    monkeypatch.setattr(sampling, "FLOORS", (12.0,))
+    rod = decomp.Cylinder((0, 0, 0), (0, 0, 6), 1)
+    with pytest.raises(GeometryError, match=r"goes astray\. Sampled instead: no sampled skeleton"):
+        decomp.skeleton(rod)
+
+
+def test_a_skeleton_that_fails_its_certificate_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from decomp.certificate import certificate
+
+    monkeypatch.setattr(certificate, "INTRUSION", -1.0)
+    monkeypatch.setattr(sampling, "FLOORS", (12.0,))
+    block = decomp.Geometry(decomp.Block((0, 0, 0), (4, 3, 2)))
+    with pytest.raises(GeometryError, match="intrusion is 0, allowed -1"):
+        sampled_skeleton(block, 5e-4, lambda what, done: None)
+
+
+def test_a_wall_without_a_jump_is_no_sheet() -> None:
+    """A trim surface of the bracket handed in as a sheet is found out."""
+    made = decomp.skeleton(SOLIDS["bracket"].make(), method="sampled")
+    region = made.regions[0]
+    assert not without_jump(made.complex, made.radius, region, made.sites)
+    trim = next(p for p in made.complex.patches if p.kind is PatchKind.TRIM)
+    edge = next(k for k, site in enumerate(made.sites) if site.kind is SiteKind.EDGE)
+    face = made.sites[edge].name.split("|")[0]
+    pair = next(k for k, site in enumerate(made.sites) if site.name == face), edge
+    surface = made.complex.patches[region.sheets[0].patch].surface
+    assert isinstance(surface, SheetSurface)
+    points = made.complex.points[np.unique(trim.triangles)]
+    feet = surface.incidence.feet(pair, points)
+    false = replace(trim, surface=SheetSurface(surface.incidence, pair, points, feet))
+    mesh = replace(made.complex, patches=(*made.complex.patches, false))
+    sheet = replace(region.sheets[0], sites=pair, patch=len(mesh.patches) - 1)
+    wrong = replace(region, sheets=(*region.sheets, sheet))
+    (line,) = without_jump(mesh, made.radius, wrong, made.sites)
+    assert line.startswith(f"no jump across the sheet of {face} and ")
+
+
+def test_the_files_of_a_sampled_skeleton_say_so(tmp_path: Path) -> None:
+    from decomp.output import write
+
+    made = decomp.skeleton(decomp.Block((0, 0, 0), (4, 3, 2)), method="sampled")
+    write(made, tmp_path / "block.vtu")
+    write(made, tmp_path / "block.json")
+    assert json.loads((tmp_path / "block.json").read_text())["regions"][0]["method"] == "sampled"
+    pyvista = pytest.importorskip("pyvista")
+    grid = pyvista.read(tmp_path / "block.vtu")
+    assert np.asarray(grid.field_data["region_method"]).reshape(-1).tolist() == [1]
+
+
+def test_there_are_three_methods() -> None:
+    block = decomp.Block((0, 0, 0), (4, 3, 2))
+    with pytest.raises(InputError, match=r"method must be one of .*'auto'.* got 'guessed'"):
+        decomp.skeleton(block, method="guessed")  # type: ignore[arg-type]
