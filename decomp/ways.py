@@ -56,9 +56,10 @@ def skeleton(
     except GeometryError as error:
         if method == "traced":
             raise
-        cause = str(error)
+        first = error
     try:
         found = sampled_skeleton(geometry, tolerance, tell)
     except GeometryError as error:
-        raise GeometryError(f"{cause}. Sampled instead: {error}") from None
+        raise first.advised(f"sampled instead: {error}") from None
+    cause = str(first)
     return replace(found, regions=tuple(replace(each, cause=cause) for each in found.regions))
