@@ -28,8 +28,6 @@ AGREES = [
     "block",
     "bracket",
     pytest.param("fichera", marks=pytest.mark.slow),
-    pytest.param("through hole", marks=pytest.mark.slow),
-    pytest.param("blind hole", marks=pytest.mark.slow),
 ]
 """Planar faces, reentrant edges and vertices, round faces and edges."""
 
