@@ -12,9 +12,9 @@ import numpy as np
 from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
+from decomp.medial.normal_balls import solve_radius, try_radius
 from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive_loci import Locus
-from decomp.medial.trims import solve_radius, try_radius
 from decomp.tracing.equidistance import Equidistant, equidistant
 from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place
 

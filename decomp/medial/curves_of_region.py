@@ -15,10 +15,11 @@ from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
 from decomp.medial.curve_elements import LocusCurve, RayCurve, SeamCurve, TrimCurve
 from decomp.medial.incidence import ANGLE, Incidence
+from decomp.medial.normal_balls import solve_radius
 from decomp.medial.normal_curves import NormalCurve, VertexRay, reflex_rays
 from decomp.medial.pieces import CurvePiece, middle_row
 from decomp.medial.reflexive import ReflexivePart
-from decomp.medial.trims import TrimPiece, TrimScanner, on_locus, solve_radius
+from decomp.medial.trims import TrimPiece, TrimScanner, on_locus
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind, faces_at
 from decomp.tracing.balls import inscribed_balls

@@ -14,19 +14,18 @@ from itertools import pairwise
 import numpy as np
 
 from decomp.boundary.topology import Convexity
-from decomp.errors import GeometryError
 from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.locus_touches import touches
+from decomp.medial.normal_balls import solve_radius, try_radius
 from decomp.medial.normal_curves import NormalCurve
+from decomp.medial.trim_samples import Contact, TrimSample, one_of, ties, without_ties
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing import loci
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.loci import locus_gap
-from decomp.tracing.raising import touching_radii
-from decomp.tracing.supports import support_table
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 SAMPLES = 96
 NEAREST_END = 1e-5
@@ -44,8 +43,6 @@ CREPT, RUN_TOGETHER = 1e-7, 1e-3
 measured by the ball too: close to a convex vertex balls are small."""
 LOCUS = 1e-8
 """Centres nearer to a reflexive locus than this part of the size lie on it."""
-
-Contact = tuple[int, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,15 +62,6 @@ class TrimPiece:
     end: float
     far: Contact
     far_feet: Array
-
-
-@dataclass(frozen=True, eq=False)
-class _Sample:
-    s: float
-    far: Contact
-    site: int
-    foot: Array
-    radius: float
 
 
 class TrimScanner:
@@ -101,8 +89,11 @@ class TrimScanner:
         return result
 
     def _without_touches(
-        self, curve: NormalCurve, samples: list[_Sample], cuts: list[tuple[_Sample, _Sample]]
-    ) -> list[tuple[_Sample, _Sample]]:
+        self,
+        curve: NormalCurve,
+        samples: list[TrimSample],
+        cuts: list[tuple[TrimSample, TrimSample]],
+    ) -> list[tuple[TrimSample, TrimSample]]:
         """Changes of the far contact, without those to one that is as near in one point only.
 
         There its distance is least; what rounding and tolerances make of that point is a short
@@ -124,7 +115,7 @@ class TrimScanner:
         return cuts
 
     def _only_touches(
-        self, curve: NormalCurve, before: _Sample, one: _Sample, other: _Sample
+        self, curve: NormalCurve, before: TrimSample, one: TrimSample, other: TrimSample
     ) -> bool:
         """Whether the contact of a stretch from `one` to `other` is nowhere nearer than another."""
         period = curve.end - curve.start
@@ -140,7 +131,7 @@ class TrimScanner:
         radius = try_radius(incidence, curve, before.far[0], s, feet, balls.radius)
         return bool(np.abs(radius - balls.radius).max() <= TOUCHES * self._size)
 
-    def _turning(self, piece: TrimPiece, samples: list[_Sample]) -> list[TrimPiece]:
+    def _turning(self, piece: TrimPiece, samples: list[TrimSample]) -> list[TrimPiece]:
         """The parts of a piece between the places where it turns back at a reflexive locus."""
         curve, incidence = piece.over, self._incidence
         if piece.far == tuple(sorted(curve.sites)):
@@ -167,8 +158,8 @@ class TrimScanner:
     def _between(
         self,
         curve: NormalCurve,
-        samples: list[_Sample],
-        cuts: list[tuple[_Sample, _Sample]],
+        samples: list[TrimSample],
+        cuts: list[tuple[TrimSample, TrimSample]],
         bounds: list[float],
     ) -> list[TrimPiece]:
         first, last = samples[0], samples[-1]
@@ -196,7 +187,7 @@ class TrimScanner:
 
     def _at(
         self, curves: Sequence[NormalCurve], parameters: Sequence[Array]
-    ) -> list[list[_Sample]]:
+    ) -> list[list[TrimSample]]:
         """The samples over each of some normal curves at parameters of its own."""
         if not curves:
             return []
@@ -223,7 +214,7 @@ class TrimScanner:
             own[a:b] |= self._past_locus(curve.sites, feet[a:b], balls.radius[a:b])
         away = balls.centre - hits
         length = norm(away)
-        found: list[_Sample] = []
+        found: list[TrimSample] = []
         for k, s in enumerate(np.concatenate(parameters).tolist()):
             site = int(balls.site[k])
             if own[k]:
@@ -232,7 +223,7 @@ class TrimScanner:
                 far = (site,)
             else:
                 far = incidence.touched(site, hits[k], away[k] / length[k])
-            found.append(_Sample(s, far, site, hits[k], float(balls.radius[k])))
+            found.append(TrimSample(s, far, site, hits[k], float(balls.radius[k])))
         return [found[a:b] for a, b in pairwise(stops)]
 
     def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
@@ -262,11 +253,11 @@ class TrimScanner:
         return result
 
     def _changes(
-        self, curves: Sequence[NormalCurve], samples: Sequence[Sequence[_Sample]]
-    ) -> list[list[tuple[_Sample, _Sample]]]:
+        self, curves: Sequence[NormalCurve], samples: Sequence[Sequence[TrimSample]]
+    ) -> list[list[tuple[TrimSample, TrimSample]]]:
         """For each curve the narrowest intervals in which the far contact changes."""
-        found: list[list[tuple[_Sample, _Sample]]] = [[] for _ in curves]
-        rows = [_without_ties(row) for row in samples]
+        found: list[list[tuple[TrimSample, TrimSample]]] = [[] for _ in curves]
+        rows = [without_ties(row) for row in samples]
         wide = [(k, a, b) for k, row in enumerate(rows) for a, b in pairwise(row)]
         for depth in range(HALVINGS + 1):
             changing = [(k, a, b) for k, a, b in wide if a.far != b.far]
@@ -278,10 +269,10 @@ class TrimScanner:
                 else:
                     halved.append((k, a, b))
             for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
-                if not _ties(a, middle, b):
+                if not ties(a, middle, b):
                     wide += [(k, a, middle), (k, middle, b)]
                     continue
-                one = _one_of(a, middle, b)
+                one = one_of(a, middle, b)
                 if one is None:
                     found[k].append((a, b))
                 else:
@@ -291,8 +282,8 @@ class TrimScanner:
         return found
 
     def _middles(
-        self, curves: Sequence[NormalCurve], intervals: Sequence[tuple[int, _Sample, _Sample]]
-    ) -> list[_Sample]:
+        self, curves: Sequence[NormalCurve], intervals: Sequence[tuple[int, TrimSample, TrimSample]]
+    ) -> list[TrimSample]:
         """The samples in the middle of intervals over curves of given numbers, in their order."""
         middle: dict[int, list[float]] = {}
         place_of = []
@@ -304,7 +295,7 @@ class TrimScanner:
         at = dict(zip(middle, rows, strict=True))
         return [at[k][i] for k, i in place_of]
 
-    def _change(self, curve: NormalCurve, low: _Sample, high: _Sample) -> float:
+    def _change(self, curve: NormalCurve, low: TrimSample, high: TrimSample) -> float:
         """The exact parameter at which the far contact changes from `low` to `high`."""
         own = tuple(sorted(curve.sites))
         jumps = float(norm(low.foot - high.foot)) > 1e-5 * self._size
@@ -312,7 +303,7 @@ class TrimScanner:
             return self._crossing(curve, low, high)
         return (low.s + high.s) / 2
 
-    def _crossing(self, curve: NormalCurve, low: _Sample, high: _Sample) -> float:
+    def _crossing(self, curve: NormalCurve, low: TrimSample, high: TrimSample) -> float:
         """Where both far contacts are equally near: secant steps on the difference."""
         one, two = low.far[0], high.far[0]
         feet = np.array([low.foot]), np.array([high.foot])
@@ -336,7 +327,7 @@ def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools
     return loci.on_locus(incidence.boundary, incidence.sites, sites, points, LOCUS)
 
 
-def _continue_to_ends(samples: list[_Sample]) -> None:
+def _continue_to_ends(samples: list[TrimSample]) -> None:
     """Give samples beside a curve's ends the contact of those farther in if they have its site.
 
     Where a curve ends in a place at which more is touched, this is as near beside the end but for
@@ -349,35 +340,6 @@ def _continue_to_ends(samples: list[_Sample]) -> None:
                 samples[k] = replace(samples[k], far=inner.far)
 
 
-def _ties(a: _Sample, middle: _Sample, b: _Sample) -> bool:
-    """Whether a sample's contact holds those of both its neighbours.
-
-    It is the change itself then, to the tolerance of contacts.
-    """
-    return middle.far not in (a.far, b.far) and set(a.far) | set(b.far) <= set(middle.far)
-
-
-def _one_of(a: _Sample, middle: _Sample, b: _Sample) -> _Sample | None:
-    """A sample that ties two contacts with the one that holds its site, None if both do."""
-    if a.far == b.far or (middle.site in a.far and middle.site not in b.far):
-        return replace(middle, far=a.far)
-    if middle.site in b.far and middle.site not in a.far:
-        return replace(middle, far=b.far)
-    return None
-
-
-def _without_ties(samples: Sequence[_Sample]) -> list[_Sample]:
-    """First samples, of which none happens to be where the contact changes."""
-    found = [samples[0]]
-    for k in range(1, len(samples) - 1):
-        here: _Sample | None = samples[k]
-        if _ties(found[-1], samples[k], samples[k + 1]):
-            here = _one_of(found[-1], samples[k], samples[k + 1])
-        if here is not None:
-            found.append(here)
-    return [*found, samples[-1]]
-
-
 def _first(curve: NormalCurve) -> Array:
     """The parameters of the first samples over a normal curve."""
     inner = np.linspace(0, 1, SAMPLES + 1)[1:-1]
@@ -388,31 +350,6 @@ def _first(curve: NormalCurve) -> Array:
         else np.concatenate([near, inner, 1 - near[::-1]])
     )
     return np.asarray(curve.start + (curve.end - curve.start) * parts)
-
-
-def solve_radius(
-    incidence: Incidence, curve: NormalCurve, far: int, s: Array, feet: Array, guess: Array
-) -> Array:
-    """Radii (k,) of the balls over parameters (k,) that touch site `far` near feet (k, 3).
-
-    Raises:
-        GeometryError: there is none; says where.
-    """
-    r = try_radius(incidence, curve, far, s, feet, guess)
-    if np.isnan(r).any():
-        bad = curve.feet(s[np.isnan(r)])[0]
-        raise GeometryError(f"the maximal ball at the boundary point {place(bad)} is not found")
-    return r
-
-
-def try_radius(
-    incidence: Incidence, curve: NormalCurve, far: int, s: Array, feet: Array, guess: Array
-) -> Array:
-    """The same, nan where there is no such ball."""
-    which: Ints = np.full(len(s), far, dtype=np.int64)
-    table = support_table(incidence.boundary, incidence.sites)
-    size = incidence.boundary.diagonal
-    return touching_radii(table, size, which, curve.feet(s), curve.directions(s), guess, feet)
 
 
 def _secant(f: Callable[[float], float], a: float, b: float) -> float:
