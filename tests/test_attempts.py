@@ -88,7 +88,7 @@ def test_verbose(
         with stage("tracing", "part"):
             return first_of([failing(GeometryError("a")), failing(GeometryError("b"))])
 
-    monkeypatch.setattr("decomp.compute.skeleton", fails)
+    monkeypatch.setattr("decomp.ways.traced_skeleton", fails)
     decomp.save(decomp.Block((0, 0, 0), (1, 1, 1)), tmp_path / "a.json")
     out = str(tmp_path / "a.vtu")
     assert main(["skeleton", str(tmp_path / "a.json"), "-o", out]) == 3

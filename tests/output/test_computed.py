@@ -81,18 +81,24 @@ def test_cells(kind: str, count: int, model: Path, capsys: pytest.CaptureFixture
 def test_what_cannot_be_certified_is_one_clear_line(
     model: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A chord tolerance that no figure can meet: the error tells the figure, and what was tried."""
+    """A limit that no figure can meet: the error tells the figure, and if asked what was tried."""
     from decomp import compute
     from decomp.certificate import certificate
 
     monkeypatch.setattr(certificate, "INTRUSION", -1.0)
-    monkeypatch.setattr(compute, "SAMPLES", (2000,))
+    monkeypatch.setattr(compute, "SAMPLES", (2000, 3000))
     out = model.with_suffix(".vtu")
     assert main(["skeleton", str(model), "-o", str(out)]) == GeometryError.exit_code
     captured = capsys.readouterr()
     assert captured.out == ""
     assert captured.err.startswith("decomp: error: ")
     assert captured.err.count("\n") == 1
-    for part in ("fails its certificate", "2000 samples", "region part", "intrusion is", "allowed"):
+    for part in ("fails its certificate", "region part", "intrusion is", "allowed"):
         assert part in captured.err
+    assert main(["skeleton", str(model), "-o", str(out), "--verbose"]) == GeometryError.exit_code
+    first, *tried = capsys.readouterr().err.splitlines()
+    assert first == captured.err.rstrip("\n")
+    assert tried[0] == "  in certificate"
+    for samples, line in zip((2000, 3000), tried[1:], strict=True):
+        assert f"from {samples} boundary points" in line
     assert not out.exists()
