@@ -35,7 +35,7 @@ LARGEST = 0.1
 """The largest chord tolerance that can be asked for."""
 TRACING = 0.6
 """The part of the whole that tracing is taken for."""
-FINENESSES = 4
+FINENESSES = 7
 """How often the tolerance is made finer for the volume's sake."""
 COARSE = 3.0
 """Where sheets cannot be drawn or refined triangles count as so many times too coarse, once."""
