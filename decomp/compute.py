@@ -37,6 +37,8 @@ TRACING = 0.6
 """The part of the whole that tracing is taken for."""
 FINENESSES = 7
 """How often the tolerance is made finer for the volume's sake."""
+STUCK = 0.02
+"""A volume's error that has changed by less than this part of it asks for twice as fine chords."""
 COARSE = 3.0
 """Where sheets cannot be drawn or refined triangles count as so many times too coarse, once."""
 
@@ -101,6 +103,7 @@ class _Attempt:
         )
         fineness = fine_enough(geometry, self._relative, SHARE)
         refused: list[tuple[str, GeometryError]] = []
+        errors = np.full(len(fineness), np.inf)
         for left in reversed(range(FINENESSES)):
             self._tell("triangulating sheets", TRACING)
             try:
@@ -117,9 +120,11 @@ class _Attempt:
                     raise first_cause(refused) from None
                 fineness = finer(fineness, np.full(len(fineness), COARSE))
                 continue
-            errors = volume_errors(geometry, draft.surface, whole.complex)
+            errors, before = volume_errors(geometry, draft.surface, whole.complex), errors
             if errors.max() > VOLUME and left:
-                fineness = finer(fineness, errors / VOLUME)
+                # chords can be well within their limit already
+                stuck = np.where(np.abs(errors - before) <= STUCK * errors, 2.0, 1.0)
+                fineness = finer(fineness, stuck * errors / VOLUME)
                 continue
             self._tell("measuring", 0.9)
             result = whole.result()
