@@ -32,6 +32,8 @@ class Similarity:
         doubt: how far an image may be off, in units of its distance from the origin, as the numbers
             were given with few digits.
         shift: how far all images may be off, for the same reason. Neither is handed on by `after`.
+        fixed: a point (3,) that stays where it is, if `offset` was computed from one: far from the
+            origin it tells the offset more exactly. Not handed on by `after` either.
     """
 
     rotation: Array
@@ -39,6 +41,7 @@ class Similarity:
     offset: Array
     doubt: float = 0.0
     shift: float = 0.0
+    fixed: Array | None = None
 
     def points(self, p: Array) -> Array:
         """Images of points (..., 3)."""
@@ -80,7 +83,7 @@ def rotation(axis: ArrayLike, degrees: float, centre: ArrayLike = (0, 0, 0)) -> 
     s, c = _clean(sin(angle)), _clean(cos(angle))
     cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
     matrix = c * np.eye(3) + s * cross + (1 - c) * np.outer(k, k)
-    return Similarity(frozen(matrix), 1.0, frozen(pivot - matrix @ pivot))
+    return Similarity(frozen(matrix), 1.0, frozen(pivot - matrix @ pivot), fixed=pivot)
 
 
 def reflection(normal: ArrayLike, point: ArrayLike = (0, 0, 0)) -> Similarity:
@@ -88,14 +91,14 @@ def reflection(normal: ArrayLike, point: ArrayLike = (0, 0, 0)) -> Similarity:
     n = direction(normal, "mirror normal")
     p = vector(point, "mirror point")
     matrix = np.eye(3) - 2 * np.outer(n, n)
-    return Similarity(frozen(matrix), 1.0, frozen(p - matrix @ p))
+    return Similarity(frozen(matrix), 1.0, frozen(p - matrix @ p), fixed=p)
 
 
 def scaling(factor: float, centre: ArrayLike = (0, 0, 0)) -> Similarity:
     """Scale uniformly by `factor` above zero, keeping `centre` in place."""
     f = positive(factor, "scale factor")
     c = vector(centre, "scale centre")
-    return Similarity(IDENTITY.rotation, f, frozen((1 - f) * c))
+    return Similarity(IDENTITY.rotation, f, frozen((1 - f) * c), fixed=c)
 
 
 def from_matrix(matrix: ArrayLike) -> Similarity:

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from decomp.errors import InputError
 from decomp.magnitude import check_length, check_magnitude
+from decomp.places import place as place
+from decomp.places import triple as triple
 
 Array: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
@@ -134,11 +136,6 @@ def frame(axis: Array) -> tuple[Array, Array]:
     """Return unit vectors x, y such that (x, y, axis) is right-handed and orthonormal."""
     x = perpendicular(axis)
     return x, cross(axis, x)
-
-
-def place(point: Array) -> str:
-    """A point as text for messages."""
-    return "(" + ", ".join(f"{x + 0.0:.6g}" for x in point) + ")"
 
 
 BLOCK = 4096

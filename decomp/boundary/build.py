@@ -20,7 +20,9 @@ from decomp.boundary.touching import tangent_carriers, touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import EMPTY, Model, without_empty
+from decomp.csg.placing import AT_ORIGIN, NEAR, placing_of
 from decomp.errors import EmptyRegionError, UnboundedRegionError
+from decomp.places import seen_from
 from decomp.vectors import Array, Ints, norm
 
 WINDOWS = (2.0, 2e4)
@@ -29,7 +31,7 @@ WINDOWS = (2.0, 2e4)
 
 @dataclass(frozen=True, eq=False)
 class Boundaries:
-    """The exact boundaries of all regions of a model.
+    """The exact boundaries of all regions of a model, in coordinates about `offset`.
 
     Args:
         model: whose boundaries they are: of the model asked for, the regions that have an interior.
@@ -44,10 +46,21 @@ class Boundaries:
     _sources: tuple[_Source, ...]
 
     @property
-    def diagonal(self) -> float:
-        """Length of the diagonal of the box around all regions."""
+    def offset(self) -> Array:
+        """Where their origin is in the model's coordinates (3,): near the model, or 0."""
+        return self.form.offset
+
+    @property
+    def box(self) -> Array:
+        """Corners (2, 3) of the box around all regions."""
         low = np.min([region.bounds[0] for region in self.regions], axis=0)
         high = np.max([region.bounds[1] for region in self.regions], axis=0)
+        return np.array([low, high])
+
+    @property
+    def diagonal(self) -> float:
+        """Length of the diagonal of the box around all regions."""
+        low, high = self.box
         return float(np.linalg.norm(high - low))
 
     @cached_property
@@ -122,10 +135,18 @@ def boundaries(model: Model) -> Boundaries:
     """
     try:
         form = half_space_form(model)
-        result = _boundaries_of(model, form)
-        if not 0.1 < result.diagonal / form.scale < 10:
-            # the estimate from the primitives was far off: do it again with the true size
-            result = _boundaries_of(model, half_space_form(model, result.diagonal))
+        placing = placing_of(*_box(form))
+        if placing is not AT_ORIGIN:
+            form = half_space_form(model, placing=placing)
+        with seen_from(form.offset, form.scale):
+            result = _boundaries_of(model, form)
+        better = placing_of(*result.box + form.offset)
+        strayed = norm(better.offset - form.offset) > NEAR * result.diagonal
+        if strayed or not 0.1 < result.diagonal / form.scale < 10:
+            # what was estimated from the primitives was far off: again with true size and place
+            form = half_space_form(model, result.diagonal, better if strayed else placing)
+            with seen_from(form.offset, form.scale):
+                result = _boundaries_of(model, form)
     except _SomeEmptyError as found:
         return boundaries(without_empty(model, found.regions))
     return result
@@ -167,6 +188,15 @@ def _all_built(arrangement: Arrangement, around: list[Star], form: HalfSpaceForm
     if empty:
         raise _SomeEmptyError(empty)
     return sources
+
+
+def _box(form: HalfSpaceForm) -> Array:
+    """Corners (2, 3) of a box around all regions, or where the primitives are if none is known."""
+    boxes = form.region_boxes
+    box = np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
+    if np.isfinite(box).all() and (box[0] < box[1]).all():
+        return box
+    return form.centre + np.array([[-0.5], [0.5]]) * form.scale / np.sqrt(3)
 
 
 def _reach(form: HalfSpaceForm) -> float:

@@ -11,7 +11,7 @@ from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import OverlapError, UnboundedRegionError
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Bools, cross, norm, perpendicular, place
+from decomp.vectors import Array, Bools, cross, norm, perpendicular, place, triple
 
 
 def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
@@ -36,7 +36,7 @@ def _raise_unbounded(member: Member, point: Array) -> None:
     away = point - member.form.centre
     raise UnboundedRegionError(
         f"region {member.name!r} is unbounded: it reaches infinity in direction "
-        f"{place(away / norm(away))}; intersect it with a block or add half-spaces"
+        f"{triple(away / norm(away))}; intersect it with a block or add half-spaces"
     )
 
 

@@ -15,7 +15,7 @@ from decomp.boundary.topology import Convexity
 from decomp.boundary.wedges import SAME_DIRECTION, HalfSheet, Star
 from decomp.curves.base import Curve
 from decomp.errors import UnboundedRegionError
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm, place, triple
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,6 +260,6 @@ def _unbounded(arrangement: Arrangement, member: Member, tip: Array) -> str:
     away = tip - arrangement.form.centre
     away = away / np.linalg.norm(away)
     return (
-        f"region {member.name!r} is unbounded: it reaches infinity in direction {place(away)}; "
+        f"region {member.name!r} is unbounded: it reaches infinity in direction {triple(away)}; "
         "intersect it with a block or add half-spaces"
     )

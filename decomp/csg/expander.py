@@ -9,6 +9,7 @@ import numpy as np
 from decomp.carriers import Carrier, Cylinder, Sphere, Torus
 from decomp.carriers.axial import nearest_to_origin
 from decomp.csg.options import Options
+from decomp.csg.placing import Placing
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import FALSE, TRUE, inverted
 from decomp.csg.solid import (
@@ -24,7 +25,7 @@ from decomp.csg.solid import (
 )
 from decomp.errors import InputError
 from decomp.magnitude import RESOLUTION, check_length, check_magnitude
-from decomp.similarity import IDENTITY, Similarity
+from decomp.similarity import Similarity
 from decomp.vectors import Array, norm
 
 
@@ -35,7 +36,7 @@ class _Context:
     `inexact` are the moves that are known to few digits, the outermost first.
     """
 
-    transform: Similarity
+    placing: Placing
     prefix: str
     suffix: str
     options: Options
@@ -46,9 +47,13 @@ class Expander:
     """Expands the tree into placed primitives and a graph of ANDs over raw carriers.
 
     A subtree that is met again in the same context is expanded once.
+
+    Args:
+        names: of primitives by identity.
+        placing: of the whole model.
     """
 
-    def __init__(self, names: dict[int, str]) -> None:
+    def __init__(self, names: dict[int, str], placing: Placing) -> None:
         self.carriers: list[Carrier] = []
         self.steps: list[tuple[Similarity, ...]] = []
         self.bounds: dict[int, Array] = {}
@@ -58,7 +63,7 @@ class Expander:
         self._done: dict[tuple[int, int], int] = {}
         self._placed_at: dict[int, int] = {}
         self._contexts: dict[tuple[int, int, int], _Context] = {}
-        self._root = _Context(IDENTITY, "", "", Options())
+        self._root = _Context(placing, "", "", Options())
 
     def expand(self, root: Solid) -> int:
         """Reference to the node that stands for `root`."""
@@ -130,16 +135,18 @@ class Expander:
         name = context.prefix + self._names[id(primitive)] + context.suffix
         sides: list[tuple[str, int]] = []
         literals = []
-        for face, carrier in primitive.half_spaces():
+        pivot, transform = context.placing.pivot, context.placing.by
+        local = primitive if pivot is None else primitive.about(pivot)
+        for face, carrier in local.half_spaces():
             sides.append((f"{name}.{face}" if face else name, len(self.carriers)))
             self.nodes.append(("literal", (len(self.carriers),)))
             literals.append(2 * (len(self.nodes) - 1))
-            self.carriers.append(_checked(carrier.transformed(context.transform), name))
+            self.carriers.append(_checked(carrier.transformed(transform), name))
             self.steps.append(context.inexact)
-        box = primitive.bounds()
+        box = local.bounds()
         if box is not None:
             corners = np.array([[box[(k >> j) & 1, j] for j in range(3)] for k in range(8)])
-            corners = context.transform.points(corners)
+            corners = transform.points(corners)
             check_length(float(np.ptp(corners, axis=0).max()), f"the size of {name}")
             self.bounds[len(self.nodes)] = np.array([corners.min(axis=0), corners.max(axis=0)])
         # A node of its own even for a single half-space, so that the primitive can be found again.
@@ -175,14 +182,14 @@ def _inner_context(outer: _Context, node: Solid, copy: int) -> _Context:
 
 def _moved(outer: _Context, by: Similarity, suffix: str) -> _Context:
     inexact = (*outer.inexact, by) if by.doubt or by.shift else outer.inexact
-    return replace(outer, transform=_composed(outer, by), suffix=suffix, inexact=inexact)
+    return replace(outer, placing=_composed(outer, by), suffix=suffix, inexact=inexact)
 
 
-def _composed(outer: _Context, by: Similarity) -> Similarity:
+def _composed(outer: _Context, by: Similarity) -> Placing:
     """A move inside another one, refused where moves that are each in range add up too far."""
-    result = outer.transform.after(by)
-    check_length(result.scale, "the scale of a solid inside scaled ones")
-    check_magnitude(result.offset, "the move of a solid inside moved ones")
+    result = outer.placing.after(by)
+    check_length(result.by.scale, "the scale of a solid inside scaled ones")
+    check_magnitude(result.by.offset, "the move of a solid inside moved ones")
     return result
 
 

@@ -15,6 +15,7 @@ from decomp.csg.extents import BOX_SLACK, extents
 from decomp.csg.merging import doubt, merged
 from decomp.csg.model import Model
 from decomp.csg.options import Options
+from decomp.csg.placing import AT_ORIGIN, Placing
 from decomp.csg.primitives import Primitive
 from decomp.csg.program import Program, ProgramBuilder
 from decomp.csg.solid import (
@@ -61,6 +62,8 @@ class HalfSpaceForm:
         names: of the regions.
         placed: every primitive, in the order of the model.
         used: for each region the indices into `placed` that it is made of, in order.
+        offset: (3,), where its own origin is in the model's coordinates: everything here is told
+            from there.
         centre: (3,), the middle of the primitives' reference points.
         scale: the length to which the tolerance is relative.
         region_boxes: (n_regions, 2, 3), corners of a box around each region, maybe infinite.
@@ -72,6 +75,7 @@ class HalfSpaceForm:
     names: tuple[str, ...]
     placed: tuple[Placed, ...]
     used: tuple[tuple[int, ...], ...]
+    offset: Array
     centre: Array
     scale: float
     region_boxes: Array
@@ -106,22 +110,25 @@ class HalfSpaceForm:
         return self.program.evaluate(self.signed_distances(points) < 0)
 
 
-def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
+def half_space_form(
+    model: Model, scale: float | None = None, placing: Placing = AT_ORIGIN
+) -> HalfSpaceForm:
     """Bring a model into half-space form, merging coincident carriers.
 
     Args:
         model: the model.
         scale: its diagonal, if known; by default estimated from its primitives.
+        placing: about what the model is told; by default about its own origin.
 
     Raises:
         InputError: it has too many primitives when its copies are made, or they are too large, too
             small or too far away to compute with.
     """
     refuse_too_many(model)
-    expander = Expander(_automatic_names(model))
+    expander = Expander(_automatic_names(model), placing)
     roots = [expander.expand(region.solid) for region in model.regions]
     centre, estimate = _extent(expander)
-    _refuse_far(centre, estimate)
+    _refuse_far(placing.offset + centre, estimate)
     size = estimate if scale is None else scale
     index, sign, carriers = merged(expander.carriers, size, expander.steps)
 
@@ -153,7 +160,16 @@ def half_space_form(model: Model, scale: float | None = None) -> HalfSpaceForm:
     surfaces = tuple(carriers)
     region_boxes, carrier_boxes = extents(program, surfaces, BOX_SLACK * size)
     return HalfSpaceForm(
-        surfaces, program, names, placed, used, centre, size, region_boxes, carrier_boxes
+        surfaces,
+        program,
+        names,
+        placed,
+        used,
+        placing.offset,
+        centre,
+        size,
+        region_boxes,
+        carrier_boxes,
     )
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass
 from math import atan2
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -14,8 +15,9 @@ from decomp import carriers
 from decomp.carriers import Carrier
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
+from decomp.exact import difference
 from decomp.magnitude import check_length
-from decomp.vectors import Array, direction, frozen, norm, number, place
+from decomp.vectors import Array, direction, frozen, norm, number, triple
 
 HalfSpaces = Iterator[tuple[str, Carrier]]
 
@@ -25,6 +27,8 @@ class Primitive(Solid):
     """A named intersection of half-spaces."""
 
     kind: ClassVar[str]
+    places: ClassVar[tuple[str, ...]]
+    """Which of its fields are points."""
     name: str | None
 
     @abstractmethod
@@ -37,6 +41,13 @@ class Primitive(Solid):
     def bounds(self) -> Array | None:
         """Return the corners (2, 3) of a box around the primitive, None if it is unbounded."""
         return None
+
+    def about(self, origin: Array) -> Self:
+        """The same primitive in coordinates about `origin` (3,), each rounded once."""
+        moved = copy(self)
+        for field in self.places:
+            object.__setattr__(moved, field, frozen(difference(getattr(self, field), origin)))
+        return moved
 
     def __repr__(self) -> str:
         values = [f"{k}={_show(v)}" for k, v in vars(self).items() if v is not None]
@@ -94,5 +105,5 @@ def around(points: list[Array], reaches: list[Array]) -> Array:
 
 def _show(value: object) -> str:
     if isinstance(value, np.ndarray):
-        return place(value)
+        return triple(value)
     return f"{value:g}" if isinstance(value, float) else repr(value)

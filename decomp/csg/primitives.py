@@ -24,8 +24,12 @@ from decomp.csg.unbounded import HalfSpace as HalfSpace
 from decomp.csg.unbounded import InfiniteCone as InfiniteCone
 from decomp.csg.unbounded import InfiniteCylinder as InfiniteCylinder
 from decomp.errors import InputError
+from decomp.exact import difference
 from decomp.magnitude import check_length
-from decomp.vectors import Array, direction, frozen, place, positive, vector
+from decomp.vectors import Array, direction, frozen, positive, triple, vector
+
+CANCELLED = 16.0
+"""Corners that are so many times larger than what is between them lose digits in its size."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -46,13 +50,14 @@ class Block(Primitive):
     """
 
     kind = "block"
+    places = ("corner",)
     corner: Array
     size: Array
 
     def __init__(self, corner: ArrayLike, size: ArrayLike, name: str | None = None) -> None:
         low, extent = vector(corner, "block corner"), vector(size, "block size")
         if (extent <= 0).any():
-            raise InputError(f"block size must be positive along each axis, got {place(extent)}")
+            raise InputError(f"block size must be positive along each axis, got {triple(extent)}")
         check_length(float(extent.min()), "block size")
         set_fields(self, name, corner=low, size=extent)
 
@@ -72,10 +77,10 @@ class Block(Primitive):
         wrong = [axis for axis, a, b in zip("xyz", first, last, strict=True) if b <= a]
         if wrong:
             raise InputError(
-                f"block between {place(first)} and {place(last)}: the second corner must be above "
+                f"block between {triple(first)} and {triple(last)}: the second corner must be above "
                 f"the first along each axis, but is not along {', '.join(wrong)}"
             )
-        return cls(first, last - first, name)
+        return cls(first, _extent(first, last), name)
 
     def half_spaces(self) -> HalfSpaces:
         for k, axis in enumerate("xyz"):
@@ -85,6 +90,13 @@ class Block(Primitive):
 
     def bounds(self) -> Array:
         return np.array([self.corner, self.corner + self.size])
+
+
+def _extent(low: Array, high: Array) -> Array:
+    """The size of a block between corners; far from the origin only exact differences tell it."""
+    plain = high - low
+    far = (np.abs(low) + np.abs(high)) > CANCELLED * plain
+    return np.where(far, difference(high, low), plain) if far.any() else plain
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -102,6 +114,7 @@ class Sphere(Primitive):
     """
 
     kind = "sphere"
+    places = ("centre",)
     centre: Array
     radius: float
 
@@ -137,6 +150,7 @@ class Cylinder(Primitive):
     """
 
     kind = "cylinder"
+    places = ("base", "top")
     base: Array
     top: Array
     radius: float
@@ -184,6 +198,7 @@ class Cone(Primitive):
     """
 
     kind = "cone"
+    places = ("base", "top")
     base: Array
     base_radius: float
     top: Array
@@ -241,6 +256,7 @@ class Torus(Primitive):
     """
 
     kind = "torus"
+    places = ("centre",)
     centre: Array
     axis: Array
     major: float

@@ -36,6 +36,7 @@ class HalfSpace(Primitive):
     """
 
     kind = "plane"
+    places = ("point",)
     point: Array
     normal: Array
 
@@ -67,6 +68,7 @@ class InfiniteCylinder(Primitive):
     """
 
     kind = "cylinder"
+    places = ("point",)
     point: Array
     axis: Array
     radius: float
@@ -102,6 +104,7 @@ class InfiniteCone(Primitive):
     """
 
     kind = "cone"
+    places = ("apex",)
     apex: Array
     axis: Array
     half_angle: float

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -62,12 +63,12 @@ def _rotation(centre: Vector, angles: Vector) -> Similarity:
 
     Source: Netgen, libsrc/gprim/transform3d.hpp, `Transformation` and `SetAxisRotation`.
     """
-    radians = vector(angles, "rotation angles")
+    radians, pivot = vector(angles, "rotation angles"), vector(centre, "rotation centre")
     turns = [
         similarity.rotation(axis, -float(np.degrees(angle)), centre)
         for axis, angle in zip(((0, 0, 1), (1, 0, 0), (0, 0, 1)), radians, strict=True)
     ]
-    return turns[2].after(turns[1]).after(turns[0])
+    return replace(turns[2].after(turns[1]).after(turns[0]), fixed=pivot)
 
 
 def _translations(step: Vector, count: int) -> tuple[Similarity, ...]:
@@ -81,7 +82,7 @@ def _rotations(centre: Vector, angles: Vector, count: int) -> tuple[Similarity, 
     step = _rotation(centre, angles)
     result = [similarity.translation((0, 0, 0))]
     for _ in range(count - 1):
-        result.append(step.after(result[-1]))
+        result.append(replace(step.after(result[-1]), fixed=step.fixed))
     return tuple(result)
 
 

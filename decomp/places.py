@@ -1,0 +1,54 @@
+"""Points in messages, told where the user's own coordinates have them.
+
+Models far from the origin are computed about a point of their own. Whatever is done with such a
+model runs inside `seen_from`, so that messages need not know of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from math import ceil, log10
+
+import numpy as np
+from numpy.typing import NDArray
+
+DIGITS = 6
+"""Significant digits of coordinates near the origin."""
+MOST_DIGITS = 17
+
+_frame: ContextVar[tuple[NDArray[np.float64], int] | None] = ContextVar("frame", default=None)
+
+
+@contextmanager
+def seen_from(offset: NDArray[np.float64], size: float) -> Iterator[None]:
+    """Inside, `place` adds `offset` (3,), with digits enough to tell points of a model apart.
+
+    Args:
+        offset: where computing has its origin, in the user's coordinates.
+        size: of the model.
+    """
+    if not offset.any():
+        yield
+        return
+    more = max(0, ceil(log10(float(np.abs(offset).max()) / size)))
+    token = _frame.set((offset, min(DIGITS + more, MOST_DIGITS)))
+    try:
+        yield
+    finally:
+        _frame.reset(token)
+
+
+def place(point: NDArray[np.float64]) -> str:
+    """A point (3,) as text for messages, in the user's coordinates."""
+    frame = _frame.get()
+    if frame is None:
+        return triple(point)
+    offset, digits = frame
+    return triple(point + offset, digits)
+
+
+def triple(values: NDArray[np.float64], digits: int = DIGITS) -> str:
+    """A vector (3,) as text."""
+    return "(" + ", ".join(f"{x + 0.0:.{digits}g}" for x in values) + ")"
