@@ -25,6 +25,7 @@ from decomp.errors import GeometryError, InputError
 from decomp.fineness import fine_enough, finer, volume_errors
 from decomp.geometry import Geometry
 from decomp.medial.component_votes import MissingCurveError
+from decomp.medial.moved import moved_skeleton
 from decomp.medial.result import Skeleton
 from decomp.vectors import positive
 from decomp.whole import Whole
@@ -72,11 +73,13 @@ def skeleton(
     tell = progress or (lambda what, done: None)
 
     def way(samples: int) -> Way[Skeleton]:
-        attempt = _Attempt(geometry, tolerance, samples, tell)
+        attempt = _Attempt(geometry.local, tolerance, samples, tell)
         again = (MissingCurveError, CertificateError)
         return Way(f"seams looked for from {samples} boundary points", attempt.result, again)
 
-    return first_of([way(samples) for samples in SAMPLES])
+    with geometry.frame():
+        found = first_of([way(samples) for samples in SAMPLES])
+    return moved_skeleton(found, geometry.offset)
 
 
 class CertificateError(GeometryError):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager
+from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,10 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from decomp.boundary.build import Boundaries, boundaries
+from decomp.boundary.moved import moved_boundary
 from decomp.boundary.topology import RegionBoundary
 from decomp.csg.model import Model, model
 from decomp.csg.solid import Solid
 from decomp.formats import load
+from decomp.places import seen_from
 from decomp.vectors import Array, Bools
 
 if TYPE_CHECKING:
@@ -27,6 +31,13 @@ class Geometry:
 
     Args:
         source: a model, a solid, a dict of named solids, or the path of a model file.
+
+    Attributes:
+        offset: (3,), 0 near the origin. A model that is farther than some diagonals away from it
+            is computed about this point, which is near its centre, so that nothing is lost to
+            rounding: all that is given back is rounded once, and is the model's own otherwise.
+        local: the same geometry in coordinates about `offset`; itself where that is 0.
+        boundaries: of all regions, in coordinates about `offset`.
 
     Raises:
         InputError: the source is none of these.
@@ -42,11 +53,13 @@ class Geometry:
             source if isinstance(source, Model) else model(source)
         )
         self.model: Model = self.boundaries.model
+        self.offset: Array = self.boundaries.offset
+        self.local: Geometry = self if not self.offset.any() else _in_place(self.boundaries)
 
-    @property
+    @cached_property
     def regions(self) -> tuple[RegionBoundary, ...]:
         """The boundary of each region, in the model's order."""
-        return self.boundaries.regions
+        return tuple(moved_boundary(each, self.offset) for each in self.boundaries.regions)
 
     @property
     def diagonal(self) -> float:
@@ -58,9 +71,13 @@ class Geometry:
         """What a point can be nearest to; `nearest` gives indices into it."""
         return self.index.sites
 
-    @cached_property
+    @property
     def index(self) -> SiteIndex:
-        """The spatial structure behind the queries, built on first use."""
+        """The spatial structure behind the queries, in coordinates about `offset`."""
+        return self.local._index
+
+    @cached_property
+    def _index(self) -> SiteIndex:
         from decomp.sites import SiteIndex
 
         found = self.boundaries
@@ -77,7 +94,8 @@ class Geometry:
         Raises:
             InputError: these are no finite numbers, three for each point.
         """
-        return self.index.contains(points)
+        with self.frame():
+            return self.index.contains(self._local(points))
 
     def region_of(self, points: ArrayLike) -> NDArray[np.int32]:
         """The index (n,) of the region that holds each point (n, 3), -1 outside all.
@@ -87,7 +105,8 @@ class Geometry:
         Raises:
             InputError: these are no finite numbers, three for each point.
         """
-        return self.index.region_of(points)
+        with self.frame():
+            return self.index.region_of(self._local(points))
 
     def nearest(self, points: ArrayLike) -> Nearest:
         """The nearest site of the boundary of each point's own region, or of the outside.
@@ -98,7 +117,11 @@ class Geometry:
         Raises:
             InputError: these are no finite numbers, three for each point.
         """
-        return self.index.nearest(points)
+        with self.frame():
+            found = self.index.nearest(self._local(points))
+        if self.local is self:
+            return found
+        return replace(found, foot=found.foot + self.offset)
 
     def distance(self, points: ArrayLike) -> Array:
         """Signed distance (n,) of points (n, 3) to the boundary of their region, negative in one.
@@ -108,4 +131,24 @@ class Geometry:
         Raises:
             InputError: these are no finite numbers, three for each point.
         """
-        return self.index.distance(points)
+        with self.frame():
+            return self.index.distance(self._local(points))
+
+    def frame(self) -> AbstractContextManager[None]:
+        """Inside, messages about `local` tell places in the model's coordinates."""
+        return seen_from(self.offset, self.diagonal)
+
+    def _local(self, points: ArrayLike) -> ArrayLike:
+        if self.local is self:
+            return points
+        from decomp.sites.points import checked_points
+
+        return checked_points(points) - self.offset
+
+
+def _in_place(found: Boundaries) -> Geometry:
+    """The geometry of boundaries in their own coordinates."""
+    result = object.__new__(Geometry)
+    result.boundaries, result.model = found, found.model
+    result.offset, result.local = np.zeros(3), result
+    return result

@@ -13,6 +13,7 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError, InputError
 from decomp.geometry import Geometry
+from decomp.medial.moved import moved_skeleton
 from decomp.medial.result import Skeleton
 from decomp.sampled.sampling import sampled_skeleton
 
@@ -50,7 +51,7 @@ def skeleton(
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
     if method == "sampled":
-        return sampled_skeleton(geometry, tolerance, tell)
+        return _sampled(geometry, tolerance, tell)
     try:
         return traced_skeleton(geometry, tolerance, progress)
     except GeometryError as error:
@@ -58,8 +59,14 @@ def skeleton(
             raise
         first = error
     try:
-        found = sampled_skeleton(geometry, tolerance, tell)
+        found = _sampled(geometry, tolerance, tell)
     except GeometryError as error:
         raise first.advised(f"sampled instead: {error}") from None
     cause = str(first)
     return replace(found, regions=tuple(replace(each, cause=cause) for each in found.regions))
+
+
+def _sampled(geometry: Geometry, tolerance: float, tell: Progress) -> Skeleton:
+    with geometry.frame():
+        found = sampled_skeleton(geometry.local, tolerance, tell)
+    return moved_skeleton(found, geometry.offset)

@@ -77,8 +77,8 @@ class Block(Primitive):
         wrong = [axis for axis, a, b in zip("xyz", first, last, strict=True) if b <= a]
         if wrong:
             raise InputError(
-                f"block between {triple(first)} and {triple(last)}: the second corner must be above "
-                f"the first along each axis, but is not along {', '.join(wrong)}"
+                f"block between {triple(first)} and {triple(last)}: the second corner must be "
+                f"above the first along each axis, but is not along {', '.join(wrong)}"
             )
         return cls(first, _extent(first, last), name)
 

@@ -9,7 +9,7 @@ threshold.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, radians
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from decomp.errors import InputError
 from decomp.medial.facing_sheets import facing_sheets
 from decomp.medial.level_cut import LevelCut
 from decomp.medial.result import Skeleton
+from decomp.places import seen_from
 from decomp.vectors import Array, Ints, cross, norm
 from decomp.vectors import number as finite
 
@@ -96,6 +97,12 @@ def mid_surface(skeleton: Skeleton, facing: float = FACING) -> MidSurface:
     facing = finite(facing, "facing")
     if not 0 <= facing < 180:
         raise InputError(f"facing must be an angle from 0 to less than 180 degrees, got {facing:g}")
+    with seen_from(skeleton.offset, skeleton.diagonal):
+        found = _mid_surface(skeleton.local, facing)
+    return replace(found, points=found.points + skeleton.offset)
+
+
+def _mid_surface(skeleton: Skeleton, facing: float) -> MidSurface:
     mesh = skeleton.complex
     surfaces = facing_sheets(skeleton)
     triangles, regions, between = [], [], []

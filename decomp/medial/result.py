@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+
+import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
@@ -199,6 +201,9 @@ class Skeleton:
         radius: distance (n,) from each of the complex's points to the boundary, 0 on it.
         regions: in the model's order.
         source: the file that the model was read from, if any; no output may replace it.
+        offset: (3,) the point near the model about which it was computed, 0 near the origin
+            (`Geometry.offset`).
+        unmoved: the same skeleton in coordinates about `offset`, None where that is 0.
     """
 
     name: str
@@ -209,3 +214,10 @@ class Skeleton:
     radius: Array
     regions: tuple[RegionSkeleton, ...]
     source: Path | None = None
+    offset: Array = field(default_factory=lambda: np.zeros(3))
+    unmoved: Skeleton | None = None
+
+    @property
+    def local(self) -> Skeleton:
+        """The skeleton in coordinates about `offset`, in which nothing is lost to rounding."""
+        return self if self.unmoved is None else self.unmoved

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -48,6 +48,7 @@ class SheetKind:
             over smoothly to the Voronoi surface of the apex.
         part_of: what Vor(f, g) is as a whole where the sheet lies on a part of it, such as one
             plane of a pair, which has a shape of its own.
+        offset: (3,) about which all these are told: `Skeleton.offset`, 0 near the origin.
     """
 
     sites: tuple[Site, Site]
@@ -56,6 +57,7 @@ class SheetKind:
     surface: VoronoiSurface | None
     also: tuple[SheetKind, ...] = ()
     part_of: VoronoiSurface | None = None
+    offset: Array = field(default_factory=lambda: np.zeros(3))
 
     @property
     def kind(self) -> Kind:
@@ -77,7 +79,7 @@ class SheetKind:
         return None if self.polynomial is None else self.polynomial.degree
 
     def equation(self, digits: int = 9) -> str | None:
-        """Its equation in the model's coordinates, None where none is known."""
+        """Its equation in coordinates about `offset`, None where none is known."""
         return None if self.polynomial is None else self.polynomial.decimals(digits)
 
 
@@ -88,6 +90,10 @@ def sheet_kinds(skeleton: Skeleton, region: RegionSkeleton) -> tuple[SheetKind, 
 
 def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> SheetKind:
     """What one sheet of a region lies on."""
+    if skeleton.local is not skeleton:
+        number = next(k for k, each in enumerate(skeleton.regions) if each is region)
+        local = skeleton.local
+        return _about(sheet_kind(local, local.regions[number], sheet), skeleton.offset)
     boundary, size = region.boundary, skeleton.diagonal
     pair = skeleton.sites[sheet.sites[0]], skeleton.sites[sheet.sites[1]]
     sides = {_side(boundary, site) for site in pair}
@@ -107,6 +113,11 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
             found = strict if better else found
         pieces.append(_named(pair, parity, found, skeleton.complex, sheet.patch))
     return replace(pieces[0], also=tuple(pieces[1:]))
+
+
+def _about(kind: SheetKind, offset: Array) -> SheetKind:
+    also = tuple(replace(each, offset=offset) for each in kind.also)
+    return replace(kind, also=also, offset=offset)
 
 
 def _named(

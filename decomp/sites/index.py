@@ -18,12 +18,11 @@ from decomp.sites.crowded import FaceFinder, FaceLookup
 from decomp.sites.nearest import nearest_in_region
 from decomp.sites.occupancy import Labels, OccupancyTree, labels_of, occupancy_tree, private
 from decomp.sites.occupancy_leaves import OUTSIDE
+from decomp.sites.points import BLOCK, checked_points
 from decomp.sites.site import Site, sites_of
 from decomp.sites.site_boxes import bounds_of
 from decomp.sites.site_table import RegionSites, region_sites
-from decomp.vectors import Array, Bools, Ints, reals
-
-BLOCK = 1 << 17
+from decomp.vectors import Array, Bools, Ints, place
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +136,7 @@ class SiteIndex:
 
         A point within rounding of a boundary goes to either side.
         """
-        given = _checked(points)
+        given = checked_points(points)
         labels = np.empty(len(given), dtype=np.int32)
         labels_of(private(self.occupancy), given, labels)
         return labels
@@ -158,7 +157,7 @@ class SiteIndex:
         Where several sites are equally near, a face comes before an edge and an edge before a
         vertex, then the lower number.
         """
-        given = _checked(points)
+        given = checked_points(points)
         n = len(given)
         result = Nearest(
             np.empty(n, dtype=np.int32),
@@ -197,7 +196,7 @@ class SiteIndex:
         found, slots = found[here], slots[here]
         if (found < 0).any():
             lost = points[here[found < 0][0]]
-            raise GeometryError(f"no boundary of region {label} found from {lost.tolist()}")
+            raise GeometryError(f"no boundary of region {label} found from {place(lost)}")
         site = part.sites.site_of[found]
         faces = len(part.boundary.faces)
         crowded = np.zeros(len(here), dtype=np.bool_)
@@ -211,24 +210,6 @@ class SiteIndex:
         if label not in self._laid_out:
             self._laid_out[label] = region_sites(self.boundary(label), self.occupancy.table)
         return self._laid_out[label]
-
-
-def _checked(points: ArrayLike) -> Array:
-    """Return points as an array (n, 3) of finite floats, without a copy where that can be."""
-    try:
-        given = np.ascontiguousarray(reals(points), dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError("points must be an array of numbers of shape (n, 3)") from None
-    if given.shape == (0,):
-        return np.empty((0, 3))
-    if given.ndim != 2 or given.shape[1] != 3:
-        raise InputError(f"points must be an array of shape (n, 3), got {given.shape}")
-    for start in range(0, len(given), BLOCK):
-        bad = np.flatnonzero(~np.isfinite(given[start : start + BLOCK]).all(axis=1))
-        if len(bad):
-            at = start + int(bad[0])
-            raise InputError(f"points must be finite, got {given[at].tolist()} at index {at}")
-    return given
 
 
 def _no_lookup(region: int, carrier: int, points: Array) -> Ints:
