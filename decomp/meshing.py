@@ -25,6 +25,7 @@ from decomp.tetra.child import TimeLimit
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.mesh import Group, TetMesh
+from decomp.tetra.moved import moved_mesh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
@@ -89,6 +90,24 @@ def mesh(
     asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
+    with geometry.frame():
+        made = _meshed(
+            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress
+        )
+    return moved_mesh(made, geometry.offset)
+
+
+def _meshed(
+    geometry: Geometry,
+    wanted: Wanted,
+    order: int,
+    cells: Cells,
+    volumes: Literal["cells", "regions"],
+    sheets: bool,
+    asked: Sequence[str],
+    seconds: float | None,
+    progress: Progress | None,
+) -> TetMesh:
     tell = progress or (lambda what, done: None)
     given = _prepared(geometry, wanted, cells, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)

@@ -10,13 +10,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from math import ceil, log10
+from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 DIGITS = 6
 """Significant digits of coordinates near the origin."""
 MOST_DIGITS = 17
+FAR = 8.0
+"""What is so many sizes away takes more digits."""
 
 _frame: ContextVar[tuple[NDArray[np.float64], int] | None] = ContextVar("frame", default=None)
 
@@ -32,12 +36,24 @@ def seen_from(offset: NDArray[np.float64], size: float) -> Iterator[None]:
     if not offset.any():
         yield
         return
-    more = max(0, ceil(log10(float(np.abs(offset).max()) / size)))
-    token = _frame.set((offset, min(DIGITS + more, MOST_DIGITS)))
+    digits = digits_of(float(abs(offset).max()), size)
+    token = _frame.set((offset, digits))
     try:
         yield
     finally:
         _frame.reset(token)
+
+
+def digits_of(farthest: float, size: float, least: int = DIGITS) -> int:
+    """How many digits coordinates need that `least` would be enough for near the origin.
+
+    Args:
+        farthest: the largest coordinate.
+        size: of what is to be told apart.
+        least: the digits near the origin.
+    """
+    more = ceil(log10(farthest / size)) if farthest > FAR * size else 0
+    return min(least + more, MOST_DIGITS)
 
 
 def place(point: NDArray[np.float64]) -> str:

@@ -20,9 +20,9 @@ from decomp.boundary.touching import tangent_carriers, touching_regions
 from decomp.boundary.wedges import Star, stars
 from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import EMPTY, Model, without_empty
-from decomp.csg.placing import AT_ORIGIN, NEAR, placing_of
+from decomp.csg.placing import AT_ORIGIN, placing_of
 from decomp.errors import EmptyRegionError, UnboundedRegionError
-from decomp.places import seen_from
+from decomp.places import FAR, seen_from
 from decomp.vectors import Array, Ints, norm
 
 WINDOWS = (2.0, 2e4)
@@ -141,7 +141,7 @@ def boundaries(model: Model) -> Boundaries:
         with seen_from(form.offset, form.scale):
             result = _boundaries_of(model, form)
         better = placing_of(*result.box + form.offset)
-        strayed = norm(better.offset - form.offset) > NEAR * result.diagonal
+        strayed = norm(better.offset - form.offset) > FAR * result.diagonal
         if strayed or not 0.1 < result.diagonal / form.scale < 10:
             # what was estimated from the primitives was far off: again with true size and place
             form = half_space_form(model, result.diagonal, better if strayed else placing)
@@ -196,7 +196,7 @@ def _box(form: HalfSpaceForm) -> Array:
     box = np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
     if np.isfinite(box).all() and (box[0] < box[1]).all():
         return box
-    return form.centre + np.array([[-0.5], [0.5]]) * form.scale / np.sqrt(3)
+    return np.asarray(form.centre + np.array([[-0.5], [0.5]]) * form.scale / np.sqrt(3))
 
 
 def _reach(form: HalfSpaceForm) -> float:

@@ -36,6 +36,7 @@ def run(options: argparse.Namespace) -> None:
     """Compute, print."""
     from decomp.cli.computing import computed
     from decomp.errors import InputError
+    from decomp.output.as_json import counted_from
 
     if not 1 <= options.digits <= 17:
         raise InputError(f"--digits must be from 1 to 17, not {options.digits}")
@@ -54,7 +55,8 @@ def run(options: argparse.Namespace) -> None:
             }
             for region, own in zip(skeleton.regions, rows, strict=True)
         ]
-        print(json.dumps({"model": skeleton.name, "regions": regions}, indent=1))
+        head = {"model": skeleton.name, **counted_from(skeleton)}
+        print(json.dumps({**head, "regions": regions}, indent=1))
     else:
         say(as_text(skeleton, rows))
 
@@ -89,8 +91,12 @@ def sheet_rows(
 def as_text(skeleton: Skeleton, rows: list[list[dict[str, Any]]]) -> list[str]:
     """The tables as lines for people."""
     from decomp.cli.computing import method_text
+    from decomp.places import MOST_DIGITS, triple
 
     lines = [f"model {skeleton.name}"]
+    if skeleton.offset.any():
+        origin = triple(skeleton.offset, MOST_DIGITS)
+        lines.append(f"  x, y, z of equations are counted from {origin}")
     for region, own in zip(skeleton.regions, rows, strict=True):
         counts = Counter((row["kind"], row["degree"]) for row in own)
         lines += ["", f"region {region.name}: {len(own)} sheet{'' if len(own) == 1 else 's'}"]

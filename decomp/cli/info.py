@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.said import say
+from decomp.places import digits_of
 
 if TYPE_CHECKING:
-    from decomp.boundary.build import Boundaries
     from decomp.boundary.topology import RegionBoundary
+    from decomp.geometry import Geometry
 
 
 def register(commands: Any) -> None:
@@ -32,21 +33,21 @@ def register(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Load, compute, print."""
-    from decomp.boundary.build import boundaries
     from decomp.cli.progress import working
     from decomp.formats import load
+    from decomp.geometry import Geometry
 
     with working(f"reading {options.model.name}"):
         model = load(options.model)
     with working(f"computing the boundary of {model.name}"):
-        result = boundaries(model)
+        result = Geometry(model)
     if options.json:
         print(json.dumps(as_json(result), indent=1))
     else:
         say(as_text(result))
 
 
-def as_json(result: Boundaries) -> dict[str, Any]:
+def as_json(result: Geometry) -> dict[str, Any]:
     """The model's contents as JSON values; lengths in the model's units."""
     model = result.model
     return {
@@ -56,7 +57,7 @@ def as_json(result: Boundaries) -> dict[str, Any]:
             _region_json(region, given.options)
             for region, given in zip(result.regions, model.regions, strict=True)
         ],
-        "touching": [[result.regions[k].name for k in pair] for pair in result.touching],
+        "touching": [[result.regions[k].name for k in pair] for pair in result.boundaries.touching],
         "ignored": [{"statement": i.statement, "line": i.line} for i in model.ignored],
     }
 
@@ -102,15 +103,16 @@ def _region_json(region: RegionBoundary, options: Mapping[str, Any]) -> dict[str
     }
 
 
-def as_text(result: Boundaries) -> list[str]:
+def as_text(result: Geometry) -> list[str]:
     """The model's contents as lines for people."""
     model = result.model
     lines = [f"model {model.name}: {_count(len(result.regions), 'region')}"]
     lines.append(f"  diagonal {result.diagonal:.9g}")
     for region, given in zip(result.regions, model.regions, strict=True):
         lines += ["", *_region_text(region, given.options)]
-    if result.touching:
-        pairs = (" and ".join(result.regions[k].name for k in pair) for pair in result.touching)
+    if result.boundaries.touching:
+        touching = result.boundaries.touching
+        pairs = (" and ".join(result.regions[k].name for k in pair) for pair in touching)
         lines += ["", f"regions that touch: {', '.join(pairs)}"]
     if model.ignored:
         lines += ["", "ignored statements:"]
@@ -119,7 +121,8 @@ def as_text(result: Boundaries) -> list[str]:
 
 
 def _region_text(region: RegionBoundary, options: Mapping[str, Any]) -> list[str]:
-    low, high = (" ".join(f"{x + 0.0:.9g}" for x in corner) for corner in region.bounds)
+    digits = digits_of(float(abs(region.bounds).max()), region.diagonal, 9)
+    low, high = (" ".join(f"{x + 0.0:.{digits}g}" for x in corner) for corner in region.bounds)
     lines = [
         f"region {region.name}",
         f"  volume  {region.volume:.12g}  (error below {region.volume_error:.1e})",

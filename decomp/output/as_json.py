@@ -1,7 +1,8 @@
 """A skeleton's contents as JSON: everything but the triangles.
 
 Areas, lengths and radii are in the model's units, those of the certificate relative to its
-diagonal. Sheets and seams are numbered through all regions.
+diagonal. Sheets and seams are numbered through all regions. Of a model far from the origin
+`equations_from` is the point from which the equations count x, y and z; all else is the model's.
 """
 
 from __future__ import annotations
@@ -28,11 +29,18 @@ def contents(skeleton: Skeleton) -> dict[str, Any]:
     return {
         "model": skeleton.name,
         "diagonal": skeleton.diagonal,
+        **counted_from(skeleton),
         "regions": [
             _region(skeleton, region, labels, first_sheet, first_seam)
             for region, first_sheet, first_seam in numbers
         ],
     }
+
+
+def counted_from(skeleton: Skeleton) -> dict[str, Any]:
+    """Where the equations' x, y and z are counted from, if that is not the model's own origin."""
+    offset = skeleton.offset
+    return {"equations_from": offset.tolist()} if offset.any() else {}
 
 
 def _region(

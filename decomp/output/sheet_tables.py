@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from decomp.medial.sheet_kinds import SheetKind
 from decomp.output.surfaces import lies_on
+from decomp.vectors import Array
 from decomp.voronoi import Kind, Polynomial
 
 HIGHEST = 8
@@ -45,7 +46,8 @@ def sheet_tables(kinds: Sequence[SheetKind], labels: Sequence[str]) -> dict[str,
     `sheet_surface` is an index into the columns of `surface_counts`, which tells how many sheets of
     each kind there are; `sheet_degree` is -1 where no equation is known; `sheet_origin`,
     `sheet_axes` and `sheet_parameters` are those of the canonical equation; `sheet_equation` holds
-    the coefficients by the powers of x, y, z, the largest 1 (NaN where there is no equation);
+    the coefficients by the powers of x, y, z, the largest 1 (NaN where there is no equation), and
+    these are counted from `equation_origin`, which is there where that is not 0;
     `sheets` is the JSON of all that as UTF-8 bytes, with the equations as text.
     """
     if not kinds:
@@ -61,8 +63,13 @@ def sheet_tables(kinds: Sequence[SheetKind], labels: Sequence[str]) -> dict[str,
         "sheet_degree": Table(degrees.astype(np.int32)),
         **_frames(kinds),
         "sheet_equation": _coefficients([kind.polynomial for kind in kinds]),
+        **_counted_from(kinds[0].offset),
         "sheets": Table(text),
     }
+
+
+def _counted_from(offset: Array) -> dict[str, Table]:
+    return {"equation_origin": Table(offset[None], tuple("xyz"))} if offset.any() else {}
 
 
 def _frames(kinds: Sequence[SheetKind]) -> dict[str, Table]:
@@ -73,7 +80,8 @@ def _frames(kinds: Sequence[SheetKind]) -> dict[str, Table]:
     for row, kind in enumerate(kinds):
         if kind.shape is None:
             continue
-        origin[row], axes[row] = kind.shape.origin, kind.shape.axes.reshape(9)
+        origin[row] = kind.shape.origin + kind.offset
+        axes[row] = kind.shape.axes.reshape(9)
         for name, value in kind.shape.parameters.items():
             values[row, names.index(name)] = value
     return {

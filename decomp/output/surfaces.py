@@ -16,11 +16,13 @@ def surface_values(
     """Kind, degree, equation and, where the kind has them, canonical parameters.
 
     The equation has integer coefficients where they are short, else rounded ones of which the
-    largest is 1. Origin and axes (as rows) are the frame in which the kind's canonical equation
-    holds; of a surface of revolution that meets its axis the tips, and whether between two of them
-    it has a spindle; lengths are in the model's units, angles in radians. Where the nearest point
-    of a cone is its apex, the sheet goes over to another surface: `also`. Where the sheet lies on a
-    part of a Voronoi surface, as on one plane of a pair, the whole is told too: `part_of`. Where no
+    largest is 1; its x, y and z are counted from `Skeleton.offset`, as coefficients have no digits
+    for a model far from the origin. Origin and axes (as rows) are the frame in which the kind's
+    canonical equation holds; of a surface of revolution that meets its axis the tips, and whether
+    between two of them it has a spindle; lengths are in the model's units, angles in radians. Where
+    the nearest point of a cone is its apex, the sheet goes over to another surface: `also`. Where
+    the sheet lies on a part of a Voronoi surface, as on one plane of a pair, the whole is told too:
+    `part_of`. Where no
     equation is known a remark says why.
     """
     return lies_on(sheet_kind(skeleton, region, sheet), digits)
@@ -50,10 +52,10 @@ def _values(found: SheetKind, digits: int) -> dict[str, Any]:
     if values["equation"] is None and found.surface is not None:
         values["remark"] = found.surface.remark
     if found.shape is not None:
-        values["origin"] = found.shape.origin.tolist()
+        values["origin"] = (found.shape.origin + found.offset).tolist()
         values["axes"] = found.shape.axes.tolist()
         values["parameters"] = {name: float(v) for name, v in found.shape.parameters.items()}
         if len(found.shape.tips):
-            values["tips"] = found.shape.tips.tolist()
+            values["tips"] = (found.shape.tips + found.offset).tolist()
             values["spindle"] = found.shape.spindle
     return values

@@ -10,7 +10,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -100,6 +100,35 @@ def check(
     read = _as_read(mesh)
     tell("computing the boundary", 0.05)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
+    with geometry.frame():
+        local = replace(read, points=read.points - geometry.offset)
+        limits = Limits(epsilon, volume_error, unprojected, _rounding(read.points))
+        return _checked(geometry.local, local, limits, tell)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Of what a mesh may fall short by.
+
+    Args:
+        epsilon, volume_error, unprojected: see `check`.
+        rounding: how far off the digits of its coordinates put nodes.
+    """
+
+    epsilon: float
+    volume_error: float
+    unprojected: int
+    rounding: float
+
+
+def _rounding(points: Array) -> float:
+    return float(np.sqrt(3) * np.spacing(np.abs(points).max(initial=0.0)))
+
+
+def _checked(
+    geometry: Geometry, read: ReadMesh, limits: Limits, tell: Callable[[str, float], None]
+) -> Checked:
+    epsilon = limits.epsilon
     names = resolved(read.names, geometry)
     tell("looking at elements and faces", 0.1)
     lines = list(structural_shortcomings(read))
@@ -116,10 +145,10 @@ def check(
     lines += name_shortcomings(names, geometry, cells.names if cells else [])
     lines += _bare_interfaces(read, names, geometry)
     errors = volume_errors(read, _regions(read.tet_tags, names, geometry), names, geometry)
-    lines += _wrong_volumes(geometry, errors, volume_error)
+    lines += _wrong_volumes(geometry, errors, limits.volume_error)
     off = off_surfaces(geometry, read.points, read.triangles, read.triangle_tags, names, sheets)
-    stray = int((off > TOLERANCE * geometry.diagonal).sum())
-    lines += _strayed(read, off, stray, unprojected)
+    stray = int((off > TOLERANCE * geometry.diagonal + limits.rounding).sum())
+    lines += _strayed(read, off, stray, limits.unprojected)
     tell("looking across interfaces", 0.9)
     lines += _reaching(read, names, geometry, cells, epsilon)
     return Checked(

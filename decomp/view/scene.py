@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,10 +12,11 @@ import numpy as np
 from decomp.cells.surface import side_triangles
 from decomp.errors import InputError
 from decomp.optional import needed
+from decomp.places import FAR
 from decomp.plain import plain
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.quality import radius_ratios
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array, Ints, norm
 from decomp.view.colours import CATEGORIES
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def coloured(scene: Scene) -> list[tuple[Part, str]]:
 
 
 def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:
-    """The scene of a file.
+    """The scene of a file, about its own middle if that is far from the origin.
 
     Args:
         path: of a mesh (.msh) or of a skeleton's file (.vtu), or of a model.
@@ -86,6 +87,24 @@ def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:
         InputError: the file is of none of these kinds, or what reads it is not installed.
         FileError: it cannot be read.
     """
+    return _brought_near(_scene_of(path, skeleton))
+
+
+def _brought_near(scene: Scene) -> Scene:
+    """Views tell no coordinates, and have no digits for those of what is far away."""
+    ends = [each.corners.reshape(-1, 3) for each in scene.parts if len(each.corners)]
+    if not ends:
+        return scene
+    low = np.min([each.min(axis=0) for each in ends], axis=0)
+    high = np.max([each.max(axis=0) for each in ends], axis=0)
+    middle = (low + high) / 2
+    if not norm(middle) > FAR * norm(high - low):
+        return scene
+    parts = tuple(replace(each, corners=each.corners - middle) for each in scene.parts)
+    return replace(scene, parts=parts)
+
+
+def _scene_of(path: Path, skeleton: Skeleton | None) -> Scene:
     suffix = path.suffix.lower()
     if suffix in MESHES:
         return _of_mesh(path)
