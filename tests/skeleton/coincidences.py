@@ -13,6 +13,7 @@ from scipy.integrate import quad  # type: ignore[import-untyped]
 
 from decomp.csg.primitives import Block, Cylinder, HalfSpace, Sphere, Torus
 from decomp.csg.solid import Solid
+from tests.skeleton.machine_parts import ROUND, rounded_box
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,30 @@ def bored_block() -> Solid:
     return block - Cylinder((20, -1, 15), (20, 41, 15), 6)
 
 
+def bored_tee() -> Solid:
+    """A branch has the radius of the pipe's bore: both have one normal at two points."""
+    pipe = Cylinder((-30, 0, 0), (30, 0, 0), 10) - Cylinder((-31, 0, 0), (31, 0, 0), 9)
+    return pipe - Cylinder((0, 0, 0), (0, 0, 26), 9)
+
+
+def grooved_piston() -> Solid:
+    """The groove is as far from the bore as it is deep: points of a seam are moved along it."""
+    piston = Cylinder((0, 0, 0), (0, 0, 44), 30) - Cylinder((0, 0, -1), (0, 0, 33), 25)
+    ring = Cylinder((0, 0, 35), (0, 0, 37), 40) - Cylinder((0, 0, 34), (0, 0, 38), 28)
+    return piston - ring
+
+
+def slotted_disk_in_air() -> Solid:
+    """The slot's block ends in a plane that is tangent to the disk, and has no point outside it."""
+    disk = Cylinder((0, 0, -0.5), (0, 0, 0.5), 3) - Block((-1, -1, -0.6), (4, 2, 1.2))
+    return Sphere((0, 0, 0), 11) - disk
+
+
+def turned_rounded_box() -> Solid:
+    """All radii equal, no axis along a coordinate: whole patches are as near to eight centres."""
+    return rounded_box().rotate((0.3, -0.31, -0.11), 78.7)
+
+
 def ball_in_wide_air() -> dict[str, Solid]:
     """The ball's volume asks for chords a thousand times shorter than the air's."""
     ball = Sphere((0, 0, 0), 1, name="ball")
@@ -127,6 +152,16 @@ def _keyed_volume() -> float:
     return 20 * pi * (169 + 81) - float(quad(depth, -3, 3, epsabs=1e-12, epsrel=1e-13)[0])
 
 
+def _branch_volume(outer: float, inner: float) -> float:
+    """What a branch of the inner radius takes out of one wall of a pipe."""
+
+    def depth(y: float) -> float:
+        wide = sqrt(inner**2 - y * y)
+        return 2 * wide * (sqrt(outer**2 - y * y) - wide)
+
+    return float(quad(depth, -inner, inner, epsabs=1e-12, epsrel=1e-13)[0])
+
+
 COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
@@ -139,6 +174,19 @@ COINCIDENCES: dict[str, Coincidence] = {
     "keyed shaft": Coincidence(keyed_shaft, (_keyed_volume(),), (1,)),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
+    "bored tee": Coincidence(bored_tee, (60 * pi * 19 - _branch_volume(10, 9),), (-1,)),
+    "grooved piston": Coincidence(
+        grooved_piston, (pi * (44 * 30**2 - 33 * 25**2 - 2 * (30**2 - 28**2)),), (1,)
+    ),
+    # the slot is open where the block's end touches the disk's side
+    "slotted disk in air": Coincidence(
+        slotted_disk_in_air, (4 / 3 * pi * 11**3 - 9 * pi + 2 + 2 * _half(1, 3),), (2,)
+    ),
+    "turned rounded box": Coincidence(
+        turned_rounded_box,
+        (6 + 2 * (6 + 2 + 3) * ROUND + pi * 6 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
+        (1,),
+    ),
     "ball in wide air": Coincidence(
         ball_in_wide_air, (4 / 3 * pi * (300.0**3 - 1), 4 / 3 * pi), (2, 1)
     ),

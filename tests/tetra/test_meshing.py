@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import decomp
 from decomp.errors import InputError
+from decomp.tetra.check import check
 from decomp.tetra.child import Settings, Tetrahedra, tetrahedralized
 from decomp.tetra.faces import faces_of, least_dihedral
 from decomp.tetra.mesh import GroupKind, TetMesh
@@ -298,3 +300,17 @@ def test_tetwild_is_run_again_where_it_left_out_triangles(
     assert asked[1] < asked[0]
     whole = volumes(mesh.points, mesh.tets).sum() == pytest.approx(24, rel=1e-9)
     assert whole == (times == 1)
+
+
+@pytest.mark.slow
+def test_a_housing_with_a_bore_in_its_floor() -> None:
+    """By way of the skeleton: the wall below the bore is thinner than an edge is asked to be."""
+    body = decomp.Block((0, 0, 0), (50, 36, 24)) - decomp.Block((3, 2.5, 8), (44, 31, 24))
+    exact = decomp.Geometry(body - decomp.Cylinder((-1, 18, 3.6), (51, 18, 3.6), 2.5))
+    (region,) = exact.regions
+    assert region.euler == 0
+    assert region.volume == pytest.approx(50 * 36 * 24 - 44 * 31 * 16 - 50 * pi * 6.25, rel=1e-12)
+    mesh = decomp.mesh(exact, size=5)
+    found = check(exact, mesh, volume_error=5e-3, unprojected=len(mesh.unprojected))
+    assert found.shortcomings == ()
+    assert len(mesh.unprojected) <= 0.002 * len(mesh.points)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from math import pi
 from pathlib import Path
 from typing import Any
 
@@ -100,6 +101,24 @@ def test_a_region_that_touches_itself() -> None:
     shared = mesh.points[np.intersect1d(left, right)]
     assert len(shared) >= 3
     assert (shared[:, :2] == 1).all()
+
+
+@pytest.mark.slow
+def test_two_materials_that_touch_along_curves() -> None:
+    """A ball and the bar that touches its equator from inside (Viviani).
+
+    Volumes from the integral over the bar's section; the ball's rest touches itself.
+    """
+    ball = decomp.Sphere((0, 0, 0), 2, name="ball")
+    bar = decomp.Cylinder((1, 0, -3), (1, 0, 3), 1, name="bar")
+    exact = decomp.Geometry({"core": ball & bar, "rest": ball - bar})
+    core = 16 / 3 * (pi - 4 / 3)
+    assert exact.regions[0].volume == pytest.approx(core, rel=1e-9)
+    assert exact.regions[1].volume == pytest.approx(32 / 3 * pi - core, rel=1e-9)
+    mesh = decomp.mesh(exact, size=1, cells="none")
+    assert check(exact, mesh, unprojected=len(mesh.unprojected)).shortcomings == ()
+    # nothing can part the walls where they touch
+    assert len(mesh.unprojected) <= 0.01 * len(mesh.points)
 
 
 def test_curved_elements() -> None:
