@@ -18,12 +18,14 @@ import numpy as np
 from decomp.arguments import called
 from decomp.attempts import Way, first_cause, first_of, stage
 from decomp.certificate.certificate import VOLUME
+from decomp.certificate.shortcoming import CertificateError, refusal
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.drafts import SAMPLES, SHARE, drafted, traced
 from decomp.errors import GeometryError, InputError
 from decomp.fineness import fine_enough, finer, volume_errors
 from decomp.geometry import Geometry
+from decomp.located import located
 from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.moved import moved_skeleton
 from decomp.medial.result import Skeleton
@@ -77,13 +79,9 @@ def skeleton(
         again = (MissingCurveError, CertificateError)
         return Way(f"seams looked for from {samples} boundary points", attempt.result, again)
 
-    with geometry.frame():
+    with geometry.frame(), located(geometry):
         found = first_of([way(samples) for samples in SAMPLES])
     return moved_skeleton(found, geometry.offset)
-
-
-class CertificateError(GeometryError):
-    """A skeleton was made, but not all that is measured on it is as it must be."""
 
 
 class _Attempt:
@@ -135,7 +133,6 @@ class _Attempt:
                 break
             fineness = finer(fineness, result.excess)
         if result.skeleton is None:
-            wrong = "; ".join(result.failures)
             with stage("certificate"):
-                raise CertificateError(f"the skeleton fails its certificate: {wrong}")
+                raise refusal(result.failures)
         return result.skeleton

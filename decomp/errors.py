@@ -6,11 +6,17 @@ into one line on stderr and its `exit_code`.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from decomp.places import in_users, place
 from decomp.plain import plain
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 LONGEST = 1000
 """Characters of an error that are shown."""
@@ -90,7 +96,14 @@ class Try:
 class GeometryError(DecompError):
     """The model is well-formed, but its geometry is not a solid that can be handled.
 
+    Args:
+        message: what is wrong; `{at}` in it stands for the place.
+        sites: names of the faces, edges and vertices that are concerned.
+        at: (3,) where it is wrong, in the coordinates in which it is computed.
+
     Attributes:
+        sites: as given.
+        place: (3,) where it is wrong, in the user's coordinates; None if that is not known.
         stage: of the work in which it arose: `boundary`, `tracing`, `sheets`, `refining` or
             `certificate`; empty if unknown.
         region: the region's name, empty if it is none's or unknown.
@@ -99,15 +112,23 @@ class GeometryError(DecompError):
 
     exit_code = 3
 
-    def __init__(self, message: str) -> None:
-        super().__init__(message)
+    def __init__(
+        self, message: str, sites: Iterable[str] = (), at: NDArray[np.float64] | None = None
+    ) -> None:
+        super().__init__(message if at is None else message.replace("{at}", place(at)))
+        self.sites = tuple(sites)
+        self.place = None if at is None else in_users(at)
         self.stage, self.region = "", ""
         self.tries: tuple[Try, ...] = ()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (type(self), self.args, self.__dict__)
+
     def advised(self, advice: str) -> GeometryError:
         """The same error with what to do about it at its end."""
-        result = GeometryError(f"{self}; {advice}")
-        result.stage, result.region, result.tries = self.stage, self.region, self.tries
+        result = GeometryError(f"{self}; {advice}", self.sites)
+        result.place, result.tries = self.place, self.tries
+        result.stage, result.region = self.stage, self.region
         return result
 
     def as_json(self) -> dict[str, Any]:
@@ -117,8 +138,19 @@ class GeometryError(DecompError):
             "error": str(self),
             "stage": self.stage,
             "region": self.region,
+            "place": self.place,
+            "sites": self.sites,
             "tries": [asdict(each) for each in self.tries],
         }
+
+
+def _unpickled(
+    kind: type[GeometryError], args: tuple[Any, ...], state: dict[str, Any]
+) -> GeometryError:
+    """An error as it was pickled, whatever its kind is made of."""
+    error = kind.__new__(kind, *args)
+    error.__dict__.update(state)
+    return error
 
 
 class EmptyRegionError(GeometryError):

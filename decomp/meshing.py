@@ -19,6 +19,7 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
+from decomp.located import located
 from decomp.tetra.cells import OUTSIDE
 from decomp.tetra.check_names import resolved
 from decomp.tetra.child import TimeLimit
@@ -90,7 +91,7 @@ def mesh(
     asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
-    with geometry.frame():
+    with geometry.frame(), located(geometry):
         made = _meshed(
             geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress
         )

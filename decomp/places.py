@@ -65,6 +65,12 @@ def place(point: NDArray[np.float64]) -> str:
     return triple(point + offset, digits)
 
 
+def in_users(point: NDArray[np.float64]) -> tuple[float, ...]:
+    """A point (3,) in the user's coordinates."""
+    frame = _frame.get()
+    return tuple((point if frame is None else point + frame[0]).tolist())
+
+
 def triple(values: NDArray[np.float64], digits: int = DIGITS) -> str:
     """A vector (3,) as text."""
     return "(" + ", ".join(f"{x + 0.0:.{digits}g}" for x in values) + ")"

@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from decomp.errors import InputError
 from decomp.magnitude import check_length, check_magnitude
-from decomp.places import place as place
-from decomp.places import triple as triple
 
 Array: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from decomp.cells.partition import face_cells, skeleton_cells
 from decomp.certificate.certificate import VOLUME, Certified, certified, explained, shortcomings
 from decomp.certificate.evidence import Evidence
+from decomp.certificate.shortcoming import Shortcoming
 from decomp.complex.model import LineKind
 from decomp.complex.refine import refined
 from decomp.drafts import Draft
@@ -34,7 +35,7 @@ class Result:
     """
 
     skeleton: Skeleton | None
-    failures: list[str]
+    failures: list[Shortcoming]
     excess: Array
 
 
@@ -60,14 +61,14 @@ class Whole:
         geometry = self._geometry
         radius = self._radius()
         regions: list[RegionSkeleton] = []
-        failures: list[str] = []
+        failures: list[Shortcoming] = []
         short: set[str] = set()
         for number in range(len(geometry.regions)):
             region, found = self._region(number, radius)
             regions.append(region)
             short |= set(shortcomings(found.certificate, self._relative))
             lines = explained(found, self._relative, geometry.sites)
-            failures += [f"region {region.name}: {line}" for line in lines]
+            failures += [replace(line, text=f"region {region.name}: {line.text}") for line in lines]
         made = Skeleton(
             geometry.model.name,
             geometry.diagonal,

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 from typing import NoReturn
 
+import numpy as np
 import pytest
 
 import decomp
 from decomp.attempts import Way, first_of, stage
 from decomp.cli.main import main
 from decomp.errors import EmptyRegionError, GeometryError, OverlapError, Try
+from decomp.located import located
+from decomp.medial.sheets import CrossingError
+from decomp.places import seen_from
 
 BALLS = """algebraic3d
 solid one = sphere (0,0,0; 1);
@@ -63,10 +68,55 @@ def test_only_after_some_errors() -> None:
     assert caught.value.tries == ()
 
 
+def test_places_and_sites() -> None:
+    error = GeometryError("lost at {at}, in {braces}", ["a", "b"], at=np.array([1, 2.5, 3]))
+    assert str(error) == "lost at (1, 2.5, 3), in {braces}"
+    assert error.place == (1, 2.5, 3)
+    assert error.sites == ("a", "b")
+    assert error.as_json()["place"] == (1, 2.5, 3)
+    advised = error.advised("do it")
+    assert str(advised) == f"{error}; do it"
+    assert (advised.place, advised.sites) == (error.place, error.sites)
+    assert GeometryError("{at} nowhere").place is None
+
+
+def test_places_are_the_users() -> None:
+    """A model far from the origin is computed about a point of its own."""
+    with seen_from(np.array([1e6, 0, -3]), 10.0):
+        error = GeometryError("lost at {at}", at=np.array([1, 2.5, 3]))
+    assert error.place == (1000001, 2.5, 0)
+    assert str(error) == "lost at (1000001, 2.5, 0)"
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        GeometryError("at {at}", ["a"], at=np.arange(3.0)),
+        CrossingError("at {at}", np.zeros((1, 2), dtype=np.int64), ["a"], np.ones(3)),
+    ],
+)
+def test_errors_are_pickled(error: GeometryError) -> None:
+    with pytest.raises(GeometryError) as caught, stage("sheets", "part"):
+        raise error
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert type(again) is type(error)
+    assert str(again) == str(error)
+    assert again.as_json() == error.as_json()
+
+
 def test_stages_are_the_innermost() -> None:
     with pytest.raises(GeometryError) as caught, stage("refining"), stage("tracing", "part"):
         raise GeometryError("a")
     assert (caught.value.stage, caught.value.region) == ("tracing", "part")
+
+
+def test_the_nearest_site_is_told() -> None:
+    block = decomp.Geometry(decomp.Block((1e6, 0, 0), (4, 4, 2), name="block"))
+    with pytest.raises(GeometryError) as caught, block.frame(), located(block):
+        raise GeometryError("lost at {at}", at=np.array([1e6 + 2, 2, 1.5]) - block.offset)
+    error = caught.value
+    assert error.place == (1000002, 2, 1.5)
+    assert (error.sites, error.region) == (("block.zmax",), "solid")
 
 
 def test_the_report_tells_of_a_failure(
@@ -86,7 +136,8 @@ def test_verbose(
 ) -> None:
     def fails(*_: object, **__: object) -> int:
         with stage("tracing", "part"):
-            return first_of([failing(GeometryError("a")), failing(GeometryError("b"))])
+            first = GeometryError("a", ["hole.side", "plate.zmax"])
+            return first_of([failing(first), failing(GeometryError("b"))])
 
     monkeypatch.setattr("decomp.ways.traced_skeleton", fails)
     decomp.save(decomp.Block((0, 0, 0), (1, 1, 1)), tmp_path / "a.json")
@@ -96,7 +147,7 @@ def test_verbose(
     assert main(["skeleton", str(tmp_path / "a.json"), "-o", out, "--verbose"]) == 3
     assert capsys.readouterr().err.splitlines() == [
         "decomp: error: a",
-        "  in tracing, region part",
+        "  in tracing, region part, at hole.side and plate.zmax",
         "  tried: way of a: GeometryError: a",
         "  tried: way of b: GeometryError: b",
     ]

@@ -12,7 +12,7 @@ from decomp.boundary.topology import Convexity, Vertex
 from decomp.carriers import Cone
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
-from decomp.vectors import Array, frame, norm, place
+from decomp.vectors import Array, frame, norm
 
 
 def apexes(
@@ -55,5 +55,6 @@ def _apex_face(here: Sequence[int], raw: Sequence[RawFace], cone: Cone, member: 
             return k
     raise GeometryError(
         f"region {member.name!r}: no face of {member.form.carrier_name(raw[here[0]].carrier)} was "
-        f"found at its apex {place(cone.apex)}"
+        "found at its apex {at}",
+        at=cone.apex,
     )

@@ -20,7 +20,7 @@ from decomp.boundary.verified import characteristic, refuse_wrong_turning, refus
 from decomp.carriers import Sphere
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
-from decomp.vectors import Array, place
+from decomp.vectors import Array
 
 
 def assembled(
@@ -111,7 +111,8 @@ def _refuse_broken(
         if integral.area <= 0:
             raise GeometryError(
                 f"region {member.name!r}: the loops on {form.carrier_name(face.carrier)} near "
-                f"{place(face.point)} could not be joined to faces"
+                "{at} could not be joined to faces",
+                at=face.point,
             )
 
 

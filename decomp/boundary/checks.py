@@ -10,8 +10,9 @@ from decomp.boundary.wedges import Star
 from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import OverlapError, UnboundedRegionError
+from decomp.places import place, triple
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Bools, cross, norm, perpendicular, place, triple
+from decomp.vectors import Array, Bools, cross, norm, perpendicular
 
 
 def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
@@ -113,8 +114,9 @@ def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
 def _raise_overlap(form: HalfSpaceForm, filled: Array, point: Array) -> None:
     names = [form.names[k] for k in np.flatnonzero(filled)]
     raise OverlapError(
-        f"regions {names[0]!r} and {names[1]!r} overlap: both hold the point {place(point)}; "
-        "subtract one from the other"
+        f"regions {names[0]!r} and {names[1]!r} overlap: both hold the point {{at}}; "
+        "subtract one from the other",
+        at=point,
     )
 
 

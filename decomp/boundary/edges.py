@@ -15,7 +15,8 @@ from decomp.boundary.topology import Convexity
 from decomp.boundary.wedges import SAME_DIRECTION, HalfSheet, Star
 from decomp.curves.base import Curve
 from decomp.errors import UnboundedRegionError
-from decomp.vectors import Array, Bools, Ints, norm, place, triple
+from decomp.places import place, triple
+from decomp.vectors import Array, Bools, Ints, norm
 
 
 @dataclass(frozen=True, eq=False)

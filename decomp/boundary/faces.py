@@ -15,7 +15,7 @@ from decomp.boundary.torus_loops import Winding, encloses_nothing, winding
 from decomp.carriers import Carrier, Sphere, Torus
 from decomp.curves.base import Curve
 from decomp.errors import ContactError
-from decomp.vectors import Array, Ints, norm, place
+from decomp.vectors import Array, Ints, norm
 
 RAYS_PER_LOOP = 16
 
@@ -114,7 +114,8 @@ def interior_point(walker: Walker, loops: Sequence[Sequence[HalfEdge]]) -> Array
     raise ContactError(
         f"region {walker.member.name!r}: a face on "
         f"{walker.member.form.carrier_name(walker.loops.carrier)} near "
-        f"{place(walker.edges[halves[0].edge].point)} is too narrow to resolve"
+        "{at} is too narrow to resolve",
+        at=walker.edges[halves[0].edge].point,
     )
 
 

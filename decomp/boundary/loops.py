@@ -12,7 +12,8 @@ from decomp.boundary.edges import Flank, RawEdge
 from decomp.boundary.member import Member
 from decomp.carriers import Carrier, Cone
 from decomp.errors import ContactError
-from decomp.vectors import Array, frame, norm, place
+from decomp.places import place
+from decomp.vectors import Array, frame, norm
 
 SAME_RAY = 1e-12
 """Two edges along one arc leave a vertex at angles that differ by less."""
@@ -143,8 +144,9 @@ class _Linker:
         return ContactError(
             f"region {self._member.name!r}: the edges on "
             f"{self._member.form.carrier_name(self._carrier_index)} do not close at "
-            f"{place(self._points[vertex])}; carriers touch there in a way that is not "
-            f"resolved: move one part by more than the tolerance {self._member.form.tolerance:.3g}"
+            "{at}; carriers touch there in a way that is not "
+            f"resolved: move one part by more than the tolerance {self._member.form.tolerance:.3g}",
+            at=self._points[vertex],
         )
 
 

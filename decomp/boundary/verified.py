@@ -22,7 +22,7 @@ from decomp.boundary.torus_loops import genus, winding
 from decomp.boundary.turning import Turning, sampler, turning
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.errors import GeometryError
-from decomp.vectors import Array, place
+from decomp.vectors import Array
 
 ROOM = 1e-3
 """By how much the angles around a vertex may exceed a full turn: tangents at nodes are inexact."""
@@ -85,7 +85,8 @@ def refuse_wrong_turning(
             raise GeometryError(
                 f"region {member.name!r}: its boundary was not found: the faces on "
                 f"{form.carrier_name(index)} have angles of {np.degrees(angle):.6g} degrees "
-                f"together at {place(points[vertex])}, more than a full turn"
+                "together at {at}, more than a full turn",
+                at=points[vertex],
             )
 
 
@@ -96,8 +97,9 @@ def _refuse_turns(
     if not most - found.cusps <= expected <= most:
         raise GeometryError(
             f"region {member.name!r}: its boundary was not found: the loops of the face on "
-            f"{member.form.carrier_name(face.carrier)} near {place(face.point)} turn as around "
-            f"a face of Euler characteristic {most}, not {expected}"
+            f"{member.form.carrier_name(face.carrier)} near {{at}} turn as around "
+            f"a face of Euler characteristic {most}, not {expected}",
+            at=face.point,
         )
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from decomp.boundary.arcs import Arc, Arrangement
 from decomp.csg.extents import overlap
 from decomp.errors import ContactError
-from decomp.vectors import Array, Bools, cross, norm, place
+from decomp.vectors import Array, Bools, cross, norm
 
 SAME_DIRECTION = 1e-7
 """Half-sheets whose directions differ by less than this angle leave tangentially."""
@@ -107,7 +107,8 @@ def _clear_point(arrangement: Arrangement, arc: Arc) -> Array:
     raise ContactError(
         f"{form.carrier_name(blocker)} runs along the curve in which "
         f"{' and '.join(form.carrier_name(k) for k in holding)} meet, closer than the "
-        f"resolution {CLEAR * form.scale:.3g} but not along all of it, near {place(points[best])}"
+        f"resolution {CLEAR * form.scale:.3g} but not along all of it, near {{at}}",
+        at=points[best],
     )
 
 

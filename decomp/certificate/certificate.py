@@ -11,13 +11,14 @@ from decomp.cells.surface import side_triangles
 from decomp.certificate.coverage import coverage
 from decomp.certificate.evidence import Evidence, Worst
 from decomp.certificate.placement import intrusion, residual
+from decomp.certificate.shortcoming import Shortcoming
 from decomp.certificate.topology import euler, open_cells, volume_error
 from decomp.complex.errors_of import chord_error, flipped
 from decomp.complex.model import Complex
 from decomp.errors import GeometryError
 from decomp.medial.result import Certificate
+from decomp.places import place
 from decomp.sites.site import Site
-from decomp.vectors import place
 
 BALLS = 20_000
 """How many maximal balls look for what the skeleton misses."""
@@ -99,18 +100,19 @@ def shortcomings(certificate: Certificate, tolerance: float) -> tuple[str, ...]:
     return tuple(sorted(short, key=order.index))
 
 
-def explained(found: Certified, tolerance: float, sites: Sequence[Site]) -> list[str]:
-    """One line for each figure that is not what it has to be: its value, the limit, the place."""
+def explained(found: Certified, tolerance: float, sites: Sequence[Site]) -> list[Shortcoming]:
+    """Each figure that is not what it has to be: its value, the limit, the place."""
     most = limits(tolerance) | {"euler": found.certificate.expected_euler}
     lines = []
     for name in shortcomings(found.certificate, tolerance):
         line = f"{name} is {getattr(found.certificate, name):.3g}, allowed {most[name]:.3g}"
         worst = found.where.get(name)
         if worst is not None and worst.point is not None:
-            line += f", at {place(worst.point)}"
-            if worst.sites:
-                line += f" of {' and '.join(sites[k].name for k in worst.sites)}"
-        lines.append(line)
+            names = tuple(sites[k].name for k in worst.sites)
+            of = f" of {' and '.join(names)}" if names else ""
+            lines.append(Shortcoming(f"{line}, at {place(worst.point)}{of}", worst.point, names))
+        else:
+            lines.append(Shortcoming(line))
     return lines
 
 

@@ -89,6 +89,7 @@ def tried(error: GeometryError) -> list[str]:
     """Where an error arose, and all that was tried, a line each."""
     where = [f"in {error.stage}"] if error.stage else []
     where += [f"region {error.region}"] if error.region else []
+    where += [f"at {' and '.join(error.sites)}"] if error.sites else []
     lines = [f"  {', '.join(where)}"] if where else []
     return lines + [f"  tried: {each.what}: {each.kind}: {each.error}" for each in error.tries]
 

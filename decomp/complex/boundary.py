@@ -31,7 +31,7 @@ from decomp.complex.model import Complex, Line, LineKind, Patch, PatchKind
 from decomp.complex.planar import components, crossings
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 ROUNDS = 60
 FOLDS = 6
@@ -149,7 +149,7 @@ def boundary_patches(
         samples = numbered(pieces, refined(pieces, samples, split))
     piece, segment = min(split)
     at = samples.points[samples.vertices[piece][segment]]
-    raise GeometryError(f"the faces near {place(at)} could not be triangulated")
+    raise GeometryError("the faces near {at} could not be triangulated", at=at)
 
 
 def _meshes(
@@ -191,7 +191,7 @@ def _uncrossed(drawn: Sequence[Layout], pieces: Pieces, samples: Samples) -> Sam
         samples = numbered(pieces, refined(pieces, samples, split))
     piece, segment = min(split)
     at = samples.points[samples.vertices[piece][segment]]
-    raise GeometryError(f"edges near {place(at)} are too close to each other to be told apart")
+    raise GeometryError("edges near {at} are too close to each other to be told apart", at=at)
 
 
 def _doubled(pieces: Pieces, samples: Samples) -> set[tuple[int, int]]:
@@ -224,7 +224,7 @@ def _crossed(layout: Layout, pieces: Pieces, samples: Samples) -> set[tuple[int,
         curved = [k for k in pair if not straight(pieces.pieces[names[k, 0]])]
         if not curved:
             at = ends[pair[0]].mean(axis=0)
-            raise GeometryError(f"straight edges cross near {place(at)} without a common vertex")
+            raise GeometryError("straight edges cross near {at} without a common vertex", at=at)
         longest = max(curved, key=lambda k: float(length[k]))
         found.add((int(names[longest, 0]), int(names[longest, 1])))
     return found

@@ -14,7 +14,7 @@ from decomp.complex.boundary_layout import Layout
 from decomp.complex.boundary_samples import Samples
 from decomp.complex.planar import SparseError, triangulate
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, Ints, dot, frame, norm, place
+from decomp.vectors import Array, Bools, Ints, dot, frame, norm
 
 TURN = np.radians(75)
 """The most that normals differ along an edge inside a face, more than on samples of its border."""
@@ -73,8 +73,8 @@ def carrier_mesh(
         try:
             triangles, corners = _triangulated(layout, points, segments)
         except SparseError as error:
-            if len(error.places):
-                more = layout.carrier.project(layout.chart.to_space(error.places))
+            if len(error.spots):
+                more = layout.carrier.project(layout.chart.to_space(error.spots))
                 extra = np.concatenate([extra, spread(more, np.full(len(more), _gap(layout)))])
             elif isinstance(layout.carrier, Torus) and attempt < 4:
                 extra = _torus_grid(layout.carrier, known, 2**attempt)
@@ -93,7 +93,8 @@ def carrier_mesh(
             return CarrierMesh(layout, vertices, extra[used], number[triangles], midpoints, sides)
         extra = np.concatenate([extra, more])
     raise GeometryError(
-        f"the faces on the {layout.carrier.kind} near {place(points[0])} could not be triangulated"
+        f"the faces on the {layout.carrier.kind} near {{at}} could not be triangulated",
+        at=points[0],
     )
 
 

@@ -16,7 +16,7 @@ from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.complex.planar import PLANE, Period
 from decomp.errors import GeometryError
-from decomp.vectors import Array, dot, frame, place
+from decomp.vectors import Array, dot, frame
 
 POLE_GAP = 1e-12
 """1 - cos of the angle from a sphere's pole below which a point counts as the pole."""
@@ -123,7 +123,7 @@ class ConeStripChart(Chart):
         c = self.carrier
         slant, outward = _slant(c, points)
         if (slant <= 0).any():
-            raise GeometryError(f"the apex {place(c.apex)} of a cone has no place in its strip")
+            raise GeometryError("the apex {at} of a cone has no place in its strip", at=c.apex)
         height = np.log(slant / self.slant) / sin(c.angle)
         return np.asarray(self._scale * np.stack([_angle(outward, c.axis), height], axis=-1))
 
@@ -151,7 +151,7 @@ class SphereChart(Chart):
         gap = 1 - d @ self.pole
         if (gap < POLE_GAP).any():
             at = self.carrier.centre + self.carrier.radius * self.pole
-            raise GeometryError(f"a point at the pole {place(at)} of a sphere has no place")
+            raise GeometryError("a point at the pole {at} of a sphere has no place", at=at)
         flat = np.stack([d @ x, d @ y], axis=-1)
         return np.asarray(2 * self.carrier.radius * flat / gap[..., None])
 
@@ -209,7 +209,7 @@ def chart_of(
         return TorusChart(carrier)
     assert isinstance(carrier, Sphere)
     if pole is None:
-        raise GeometryError(f"the sphere about {place(carrier.centre)} needs a pole to be drawn")
+        raise GeometryError("the sphere about {at} needs a pole to be drawn", at=carrier.centre)
     return SphereChart(carrier, pole)
 
 

@@ -10,7 +10,7 @@ from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.carriers import Cone
 from decomp.complex.domain_base import Domain
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, cross, dot, frame, norm, place
+from decomp.vectors import Array, Bools, cross, dot, frame, norm
 
 SECTOR = 6
 """Directions by which the corner of a face is represented."""
@@ -40,13 +40,13 @@ class VertexDomain(Domain):
         away = toward - self.point
         length = norm(away)
         if (length == 0).any():
-            raise GeometryError(f"a ball without radius at {place(self.point)} has no direction")
+            raise GeometryError("a ball without radius at {at} has no direction", at=self.point)
         d = away / length[..., None]
         x, y = frame(-self.middle)
         depth = d @ self.middle
         scale = depth if self.straight else (1 + depth) / 2
         if (scale <= 0).any():
-            raise GeometryError(f"a ball at the vertex {place(self.point)} lies behind it")
+            raise GeometryError("a ball at the vertex {at} lies behind it", at=self.point)
         return np.stack([d @ x / scale, d @ y / scale], axis=-1)
 
     def lift(self, uv: Array) -> tuple[Array, Array]:
@@ -79,7 +79,7 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
     rays = np.array(normals)
     total = rays.sum(axis=0)
     if float(norm(total)) < 1e-6:
-        raise GeometryError(f"the normals at the vertex {place(vertex.point)} have no middle")
+        raise GeometryError("the normals at the vertex {at} have no middle", at=vertex.point)
     middle = total / norm(total)
     return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE).all()))
 
@@ -107,7 +107,7 @@ def tangent_directions(boundary: RegionBoundary, index: int) -> Array:
     ]
     if not found:
         point = boundary.vertices[index].point
-        raise GeometryError(f"no face has a corner at the vertex {place(point)}")
+        raise GeometryError("no face has a corner at the vertex {at}", at=point)
     return np.concatenate(found)
 
 
@@ -117,7 +117,7 @@ def opening(boundary: RegionBoundary, index: int, face: int, edge: int) -> float
         if edge in corner.edges:
             return 2 * np.pi - corner.angle
     point = boundary.vertices[index].point
-    raise GeometryError(f"edge {edge} has no corner at the vertex {place(point)}")
+    raise GeometryError(f"edge {edge} has no corner at the vertex {{at}}", at=point)
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,12 +47,12 @@ class SparseError(GeometryError):
 
     Args:
         message: what is wrong.
-        places: (k, 2) where points would help, as far as that is known.
+        spots: (k, 2) of the domain where points would help, as far as that is known.
     """
 
-    def __init__(self, message: str, places: Array | None = None) -> None:
+    def __init__(self, message: str, spots: Array | None = None) -> None:
         super().__init__(message)
-        self.places: Array = np.empty((0, 2)) if places is None else places
+        self.spots: Array = np.empty((0, 2)) if spots is None else spots
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
 from decomp.complex.refine_split import split_inside, split_leaning, split_lines, split_twins
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Ints, place, positive
+from decomp.vectors import Array, Ints, positive
 
 Progress: TypeAlias = Callable[[int], None]
 
@@ -86,8 +86,8 @@ def _split(mesh: Mesh, progress: Progress | None) -> None:
             return
     worst = int(np.nanargmax(mesh.error))
     name = mesh.elements.names[int(mesh.surface[worst])]
-    at = place(mesh.points[mesh.triangles[worst]].mean(axis=0))
-    raise GeometryError(f"the {name} cannot be followed to the tolerance near {at}")
+    at = mesh.points[mesh.triangles[worst]].mean(axis=0)
+    raise GeometryError(f"the {name} cannot be followed to the tolerance near {{at}}", at=at)
 
 
 def _check_folds(mesh: Mesh, least_upright: float) -> None:
@@ -95,8 +95,8 @@ def _check_folds(mesh: Mesh, least_upright: float) -> None:
     least = int(np.argmin(mesh.upright)) if len(mesh.upright) else -1
     if least >= 0 and mesh.upright[least] <= least_upright:
         name = mesh.elements.names[int(mesh.surface[least])]
-        at = place(mesh.points[mesh.triangles[least]].mean(axis=0))
-        raise GeometryError(f"a triangle stays folded on the {name} at {at}")
+        at = mesh.points[mesh.triangles[least]].mean(axis=0)
+        raise GeometryError(f"a triangle stays folded on the {name} at {{at}}", at=at)
 
 
 def _check(mesh: Mesh) -> None:
@@ -105,7 +105,7 @@ def _check(mesh: Mesh) -> None:
     bad = np.flatnonzero((a == b) | (b == c) | (c == a))
     if len(bad):
         at = mesh.points[mesh.triangles[bad[0]]].mean(axis=0)
-        raise GeometryError(f"a triangle has the same vertex twice at {place(at)}")
+        raise GeometryError("a triangle has the same vertex twice at {at}", at=at)
     at, curve = mesh.segments()
     ends = np.sort(np.stack([mesh.path[at], mesh.path[at + 1]], axis=1), axis=1)
     bad = np.flatnonzero(ends[:, 0] == ends[:, 1])
@@ -116,6 +116,6 @@ def _check(mesh: Mesh) -> None:
         first = bad[0] if len(bad) else order[twice[0]]
         name = mesh.elements.names[int(curve[first])]
         raise GeometryError(
-            f"a line on the {name} passes twice through a segment, or it has none, at "
-            f"{place(mesh.points[ends[first]].mean(axis=0))}"
+            f"a line on the {name} passes twice through a segment, or it has none, at {{at}}",
+            at=mesh.points[ends[first]].mean(axis=0),
         )

@@ -14,7 +14,7 @@ import numpy as np
 
 from decomp.complex.model import Complex, CurveElement, SurfaceElement, SurfaceFamily
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 Together = Callable[[Ints, Array], tuple[Array, Bools]]
 
@@ -122,7 +122,7 @@ class Elements:
             return
         first = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
         raise GeometryError(
-            f"{self.names[int(numbers[first])]} cannot be followed at {place(points[first])}"
+            f"{self.names[int(numbers[first])]} cannot be followed at {{at}}", at=points[first]
         )
 
 

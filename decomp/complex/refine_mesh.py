@@ -22,7 +22,7 @@ from decomp.complex.model import Complex
 from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 BITS = 22
 """Bits of a vertex number in an edge's key."""
@@ -256,8 +256,8 @@ class Mesh:
         apart = np.flatnonzero(part > 1e3 * TOLERANCE * self.diagonal)
         if len(apart):
             raise GeometryError(
-                "two lines share a segment but not its curve at "
-                f"{place(ends.mean(axis=1)[curve[apart[0]]])}; it must be divided"
+                "two lines share a segment but not its curve at {at}; it must be divided",
+                at=ends.mean(axis=1)[curve[apart[0]]],
             )
         edges.error[new] = 0.0
         np.maximum.at(edges.error, which, error / allowed)
@@ -283,8 +283,9 @@ class Mesh:
         far = np.flatnonzero(moved > np.maximum(length, TOLERANCE * self.diagonal))
         if len(far):
             raise GeometryError(
-                f"{self.elements.names[int(element[far[0]])]} places {place(points[far[0]])} "
-                "farther away than its own vertices are"
+                f"{self.elements.names[int(element[far[0]])]} places {{at}} "
+                "farther away than its own vertices are",
+                at=points[far[0]],
             )
 
     # --- changing ---------------------------------------------------------------------------

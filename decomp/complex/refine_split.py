@@ -9,7 +9,7 @@ from decomp.complex.refine_choose import independent, ranks
 from decomp.complex.refine_mesh import Mesh
 from decomp.errors import GeometryError
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 
 def split_lines(mesh: Mesh) -> int:
@@ -35,7 +35,7 @@ def split_inside(mesh: Mesh) -> int:
         t = int(np.flatnonzero(small)[0])
         centre = mesh.points[mesh.triangles[t]].mean(axis=0)
         name = mesh.elements.names[int(mesh.surface[t])]
-        raise GeometryError(f"{name} is torn or too crooked at {place(centre)}")
+        raise GeometryError(f"{name} is torn or too crooked at {{at}}", at=centre)
     return _split_some(mesh, np.flatnonzero(bad))
 
 
@@ -63,7 +63,8 @@ def split_twins(mesh: Mesh) -> int:
         flat = np.flatnonzero(edges.error[worst] <= TOLERANCE * mesh.diagonal)
         if len(flat):
             raise GeometryError(
-                f"two patches coincide along an edge at {_middle(mesh, worst[flat[0]])}"
+                "two patches coincide along an edge at {at}",
+                at=mesh.points[mesh.edges.ends[worst[flat[0]]]].mean(axis=0),
             )
         return _split_edges(mesh, worst, edges.error[worst])
     corners = np.sort(mesh.triangles, axis=1)
@@ -76,12 +77,8 @@ def split_twins(mesh: Mesh) -> int:
     flat = np.flatnonzero(mesh.error[worst] <= TOLERANCE * mesh.diagonal)
     if len(flat):
         centre = mesh.points[mesh.triangles[worst[flat[0]]]].mean(axis=0)
-        raise GeometryError(f"two triangles coincide at {place(centre)}")
+        raise GeometryError("two triangles coincide at {at}", at=centre)
     return _split_triangles(mesh, worst)
-
-
-def _middle(mesh: Mesh, edge: int) -> str:
-    return place(mesh.points[mesh.edges.ends[edge]].mean(axis=0))
 
 
 def _lengths(mesh: Mesh) -> Array:
@@ -217,7 +214,9 @@ def _check_new(mesh: Mesh, element: Ints, points: Array, near: Array) -> None:
     if off.any():
         first = int(np.flatnonzero(off)[0])
         name = mesh.elements.names[int(element[first])]
-        raise GeometryError(f"no new vertex can be placed on the {name} at {place(points[first])}")
+        raise GeometryError(
+            f"no new vertex can be placed on the {name} at {{at}}", at=points[first]
+        )
 
 
 def spans(starts: Ints, sizes: Ints) -> Ints:

@@ -17,7 +17,8 @@ from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
 from decomp.exact import difference
 from decomp.magnitude import check_length
-from decomp.vectors import Array, direction, frozen, norm, number, triple
+from decomp.places import triple
+from decomp.vectors import Array, direction, frozen, norm, number
 
 HalfSpaces = Iterator[tuple[str, Carrier]]
 

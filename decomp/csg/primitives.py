@@ -26,7 +26,8 @@ from decomp.csg.unbounded import InfiniteCylinder as InfiniteCylinder
 from decomp.errors import InputError
 from decomp.exact import difference
 from decomp.magnitude import check_length
-from decomp.vectors import Array, direction, frozen, positive, triple, vector
+from decomp.places import triple
+from decomp.vectors import Array, direction, frozen, positive, vector
 
 CANCELLED = 16.0
 """Corners that are so many times larger than what is between them lose digits in its size."""

@@ -27,7 +27,7 @@ from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing.contacts import contacts
 from decomp.tracing.loci import axis_gap, on_locus
-from decomp.vectors import Array, Ints, norm, place
+from decomp.vectors import Array, Ints, norm
 
 Pair = tuple[int, int]
 
@@ -211,9 +211,7 @@ class RegionAssembler:
                 gaps = norm(curves.nodes - end)
                 number = int(np.argmin(gaps))
                 if gaps[number] > AT_END * self._size or nodes[number] < 0:
-                    raise GeometryError(
-                        f"the reflexive locus that ends at {place(end)} has no node"
-                    )
+                    raise GeometryError("the reflexive locus that ends at {at} has no node", at=end)
                 for pair in self._pointed(part.sites, other, end):
                     if nodes[number] not in found.setdefault(pair, []):
                         found[pair].append(nodes[number])

@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.complex.planar import Triangulation
 from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 TESTS = 7
 """Triangles of each component at which it is asked what it is."""
@@ -53,7 +53,7 @@ def kept_components(
         if UNCLEAR < share < 1 - UNCLEAR:
             odd = asked[own][yes[own] != (share > 0.5)][0]
             at = weights[odd] @ points[found.triangles[odd]]
-            raise MissingCurveError(f"the sheet {name} has no clear end near {place(at)}")
+            raise MissingCurveError(f"the sheet {name} has no clear end near {{at}}", at=at)
         if share > 0.5:
             kept.append(number)
     return kept

@@ -16,7 +16,7 @@ from decomp.medial.normal_balls import solve_radius, try_radius
 from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive_loci import Locus
 from decomp.tracing.equidistance import Equidistant, equidistant
-from decomp.vectors import Array, Bools, Ints, nearest_rows, norm, place
+from decomp.vectors import Array, Bools, Ints, nearest_rows, norm
 
 MERGED = 1e-3
 """Feet on one site nearer than this part of the radius are not told apart."""
@@ -69,7 +69,7 @@ class SeamCurve:
                 gap = norm(self.feet[:, i] - self.feet[:, j])
                 good &= gap > MERGED * norm(self.points - self.feet[:, i])
         if not good.any():
-            raise GeometryError(f"the seam at {place(self.points[0])} has contacts that are one")
+            raise GeometryError("the seam at {at} has contacts that are one", at=self.points[0])
         return good
 
 
@@ -84,7 +84,7 @@ def place_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Array
     found = _on_seams(seams, which, points)
     if not found.converged.all():
         bad = points[~found.converged][0]
-        raise GeometryError(f"a point near {place(bad)} cannot be moved onto its seam")
+        raise GeometryError("a point near {at} cannot be moved onto its seam", at=bad)
     return found.points
 
 

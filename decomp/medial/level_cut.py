@@ -20,7 +20,7 @@ from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.medial.bisecting import SIDES, Bisected
 from decomp.medial.facing_sheets import FacingSheet
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 LINEAR = radians(1.0)
 """How far the angle at the middle of an edge may be off the mean of its ends."""
@@ -231,8 +231,10 @@ class LevelCut:
                 inside[rows] = self._surfaces[sheet].place(inside[rows])
             seen = self._facing(owner[lost], inside)[0]
             if np.isnan(seen).any():
-                at = place(inside[np.argmax(np.isnan(seen))])
-                raise GeometryError(f"the angle between the feet of the sheet at {at} is unknown")
+                raise GeometryError(
+                    "the angle between the feet of the sheet at {at} is unknown",
+                    at=inside[np.argmax(np.isnan(seen))],
+                )
             total = np.bincount(place_of[lost], seen, minlength=len(first))
             count = np.bincount(place_of[lost], minlength=len(first))
             value = np.where(count > 0, total / np.maximum(count, 1), value)

@@ -9,7 +9,7 @@ from decomp.medial.incidence import Incidence
 from decomp.medial.normal_curves import NormalCurve
 from decomp.tracing.raising import touching_radii
 from decomp.tracing.supports import support_table
-from decomp.vectors import Array, Ints, place
+from decomp.vectors import Array, Ints
 
 
 def solve_radius(
@@ -23,7 +23,7 @@ def solve_radius(
     r = try_radius(incidence, curve, far, s, feet, guess)
     if np.isnan(r).any():
         bad = curve.feet(s[np.isnan(r)])[0]
-        raise GeometryError(f"the maximal ball at the boundary point {place(bad)} is not found")
+        raise GeometryError("the maximal ball at the boundary point {at} is not found", at=bad)
     return r
 
 

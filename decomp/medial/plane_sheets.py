@@ -11,7 +11,7 @@ from decomp.medial.component_votes import kept_components
 from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.sheets import CrossingError, SheetPart
-from decomp.vectors import Array, Bools, Ints, place
+from decomp.vectors import Array, Bools, Ints
 
 FLAT = 1e-9
 """A sheet that leaves a plane by less than this part of the size lies in it."""
@@ -68,8 +68,10 @@ class PlaneSheets:
         if len(bad):
             rows = np.unique(bad)
             raise CrossingError(
-                f"curves cross in a plane of symmetry near {place(points[local[rows[0], 0]])}",
+                "curves cross in a plane of symmetry near {at}",
                 segments[rows],
+                (self._tests.name(self._site),),
+                points[local[rows[0], 0]],
             )
         flat = triangulate(uv, local)
 

@@ -27,7 +27,7 @@ from decomp.sites import SiteIndex
 from decomp.tracing.balls import inscribed_balls
 from decomp.tracing.fields import site_fields
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 ALONG, ACROSS = 256, 32
 """Cells along and across an edge's footprint in which rims are looked for."""
@@ -202,8 +202,10 @@ class _EdgeRims:
         if int(ball.site[0]) < 0 or float(norm(ball.foot - feet)[0]) < NEAR * float(ball.radius[0]):
             name = it.sites[self._site].name
             raise GeometryError(
-                f"the rim of the edge {name}'s sheet with itself ends near {place(feet[0])} where "
-                "more than two feet run together; such ends are not supported"
+                f"the rim of the edge {name}'s sheet with itself ends near {{at}} where "
+                "more than two feet run together; such ends are not supported",
+                (name,),
+                at=feet[0],
             )
 
         def gap(share: float) -> float:

@@ -20,7 +20,7 @@ from decomp.medial.pieces import CurvePiece, middle_row
 from decomp.sites import SiteIndex
 from decomp.sites.occupancy import Labels
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, frame, norm, place
+from decomp.vectors import Array, frame, norm
 
 RING = 360
 REACH = 2e-3
@@ -65,7 +65,7 @@ def _tangent(piece: CurvePiece) -> Array:
     along = piece.points[k + 1] - piece.points[k - 1]
     length = float(norm(along))
     if not length > 0:
-        raise GeometryError(f"a curve turns back on itself near {place(piece.points[k])}")
+        raise GeometryError("a curve turns back on itself near {at}", at=piece.points[k])
     return np.asarray(along / length)
 
 
@@ -93,7 +93,7 @@ def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pa
         ring = middle + reach * (np.cos(angle)[:, None] * x + np.sin(angle)[:, None] * y)
         found = queries.nearest(ring)
         if (found.region != incidence.region).any():
-            raise GeometryError(f"the sheets around {place(middle)} cannot be told apart")
+            raise GeometryError("the sheets around {at} cannot be told apart", at=middle)
         return found.site, found.foot
 
     sites, feet = at(angles)

@@ -28,7 +28,7 @@ from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.sheets import COARSE, ROUNDS, CrossingError, SheetPart
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import Balls
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 TESTS = 5
 """Triangles of each component whose far feet are asked for."""
@@ -120,7 +120,9 @@ class _EdgeSheets:
                 return self._finished(found, planes, add)
         raise GeometryError(
             f"the sheet that the edge {self._name} has with itself near "
-            f"{place(self._points[0])} cannot be triangulated"
+            "{at} cannot be triangulated",
+            (self._name,),
+            at=self._points[0],
         )
 
     def _check_crossings(self) -> None:
@@ -128,19 +130,20 @@ class _EdgeSheets:
         bad = crossings(drawn.uv, drawn.segments, self._domain.period)
         if len(bad):
             rows = np.unique(bad)
-            where = place(self._points[drawn.segments[rows[0], 0]])
             raise CrossingError(
-                f"curves cross in the footprint of the edge {self._name} near {where}",
+                f"curves cross in the footprint of the edge {self._name} near {{at}}",
                 drawn.vertex[drawn.segments[rows]],
+                (self._name,),
+                self._points[drawn.segments[rows[0], 0]],
             )
 
     def _fill(self, error: SparseError) -> None:
         """Add points where a periodic domain has too few."""
-        if not len(error.places):
+        if not len(error.spots):
             raise error
-        feet, inward = self._domain.lift(error.places)
+        feet, inward = self._domain.lift(error.spots)
         balls = self._tests.balls(feet, inward)
-        self._more(error.places, balls.centre)
+        self._more(error.spots, balls.centre)
 
     def _more(self, uv: Array, points: Array) -> None:
         self._uv = np.concatenate([self._uv, uv])
@@ -164,9 +167,10 @@ class _EdgeSheets:
         partner = {number: self._partner(found, number) for number in kept}
         for one, other in partner.items():
             if other == one or partner.get(other) != one:
-                at = place(self._points[found.triangles[found.component == one][0, 0]])
                 raise MissingCurveError(
-                    f"the sheet {name} near {at} has no second side in the edge's footprint"
+                    f"the sheet {name} near {{at}} has no second side in the edge's footprint",
+                    (self._name,),
+                    at=self._points[found.triangles[found.component == one][0, 0]],
                 )
         # which of the two must not depend on the points inside
         first = {

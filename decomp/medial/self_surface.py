@@ -16,7 +16,7 @@ from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.incidence import Incidence
 from decomp.medial.rim_curve import RimCurve
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Bools, Ints, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, dot, norm
 
 MERGED = 1e-6
 """Feet nearer to each other than this part of the size have run together."""
@@ -58,8 +58,9 @@ class SelfSheetSurface:
         if not good.all():
             name = self.incidence.sites[self.site].name
             raise GeometryError(
-                f"a point near {place(points[~good][0])} cannot be moved onto the sheet that the "
-                f"edge {name} has with itself"
+                "a point near {at} cannot be moved onto the sheet that the "
+                f"edge {name} has with itself",
+                at=points[~good][0],
             )
         return placed
 
@@ -117,7 +118,7 @@ class SelfSheetSurface:
         rows = np.flatnonzero(~apart)
         if len(rows):
             if not len(self.rims):
-                raise GeometryError(f"the sheet at {place(points[rows[0]])} has no normal")
+                raise GeometryError("the sheet at {at} has no normal", at=points[rows[0]])
             sense = np.sign(self.wells.gap(self.feet[known[rows], 0], self.feet[known[rows], 1]))
             across[rows] = sense[:, None] * self._on_rims(points[rows], feet[rows, 0])[1]
         return np.asarray(across / norm(across)[:, None])

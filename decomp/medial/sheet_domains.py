@@ -20,7 +20,7 @@ from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.unrolled import unrolled
 from decomp.sites.site import SiteKind
 from decomp.tracing.loci import locus_gap
-from decomp.vectors import Array, cross, dot, norm, place
+from decomp.vectors import Array, cross, dot, norm
 
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 FLAT = 1e-10
@@ -189,5 +189,5 @@ class SheetDomains:
         other = surface.sites[1] if surface.sites[0] == site else surface.sites[0]
         ok = ~self._tests.touches(site, other, q[order], -face.outward * sphere.normal(q[order]))
         if not ok.any():
-            raise GeometryError(f"the sheet around the sphere at {place(centre)} has no boundary")
+            raise GeometryError("the sheet around the sphere at {at} has no boundary", at=centre)
         return np.asarray(ways[order[int(np.argmax(ok))]])

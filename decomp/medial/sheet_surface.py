@@ -16,7 +16,7 @@ from decomp.tracing.equidistance import placed_between
 from decomp.tracing.fields import Field, site_fields
 from decomp.tracing.loci import on_locus
 from decomp.tracing.supports import CURVE, support_table
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +57,11 @@ class SheetSurface:
             return np.array(points)
         placed, converged = self.try_place(points)
         if not converged.all():
-            bad = points[~converged][0]
-            names = " and ".join(self.incidence.sites[s].name for s in self.sites)
+            names = [self.incidence.sites[s].name for s in self.sites]
             raise GeometryError(
-                f"a point near {place(bad)} cannot be moved onto the sheet between {names}"
+                f"a point near {{at}} cannot be moved onto the sheet between {' and '.join(names)}",
+                names,
+                at=points[~converged][0],
             )
         return placed
 
@@ -89,7 +90,7 @@ class SheetSurface:
             known = self._difference(self.points, self.feet)
             good = np.flatnonzero(norm(known) > 1e-3)
             if not len(good):
-                raise GeometryError(f"the sheet at {place(points[lost][0])} has no normal")
+                raise GeometryError("the sheet at {at} has no normal", at=points[lost][0])
             nearest = cKDTree(self.points[good]).query(points[lost])[1]
             difference[lost] = known[good[nearest]]
             length = norm(difference)

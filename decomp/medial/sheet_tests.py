@@ -27,6 +27,10 @@ class SheetTests:
         self._index, self._incidence = index, incidence
         self._size = incidence.boundary.diagonal
 
+    def name(self, site: int) -> str:
+        """Of a site, for messages."""
+        return self._incidence.sites[site].name
+
     def on(self, site: int, feet: Array, inward: Array) -> Bools:
         """Whether feet (k, 3) are on a site, as seen in directions into the region (k, 3)."""
         step = OFF * self._size

@@ -7,7 +7,7 @@ domain into components; each is in the skeleton or not, as exact queries inside 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +33,7 @@ from decomp.medial.sheet_domains import Drawing, SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 ROUNDS = 12
 FILL = 6
@@ -47,11 +47,14 @@ class CrossingError(GeometryError):
     """Sampled curves cross in the domain: they must be sampled more finely.
 
     Args:
+        message: what is wrong near `{at}`.
         segments: (k, 2) pairs of vertices between which a curve must have more samples.
+        sites: names of the sites between which the curves are.
+        at: (3,) where they cross.
     """
 
-    def __init__(self, message: str, segments: Ints) -> None:
-        super().__init__(message)
+    def __init__(self, message: str, segments: Ints, sites: Iterable[str], at: Array) -> None:
+        super().__init__(message, sites, at=at)
         self.segments = segments
 
 
@@ -150,8 +153,12 @@ class SheetMaker:
         if len(segments) == 1 and len(used) == 2:
             if len(lines) == 1:
                 return []  # a curve on which the two sites are near, but no sheet beside it
-            where = place(self._points[used[0]])
-            raise CrossingError(f"curves have one chord near {where}", segments)
+            raise CrossingError(
+                "curves have one chord near {at}",
+                segments,
+                self._names(pair),
+                self._points[used[0]],
+            )
         if not len(isolated) and not _encloses(segments):
             return []  # nor beside one of several chords
         points = self._points[used]
@@ -192,9 +199,11 @@ class SheetMaker:
         bad = crossings(draft.uv, draft.segments, draft.period)
         if len(bad):
             rows = np.unique(bad)
-            where = place(draft.points[draft.segments[rows[0], 0]])
             raise CrossingError(
-                f"curves cross in the footprint near {where}", draft.used[draft.segments[rows]]
+                "curves cross in the footprint near {at}",
+                draft.used[draft.segments[rows]],
+                self._names(draft.pair),
+                draft.points[draft.segments[rows[0], 0]],
             )
 
     def _triangulated(
@@ -210,17 +219,22 @@ class SheetMaker:
             keep = self._kept(draft.pair, found, draft, surface)
             if draft.domain is None or not self._add_where_coarse(draft, found, keep):
                 return found, keep
-        names = " and ".join(self._incidence.sites[s].name for s in draft.pair)
+        names = self._names(draft.pair)
         raise UnevenError(
-            f"the sheet between {names} near {place(draft.points[0])} cannot be triangulated"
+            f"the sheet between {' and '.join(names)} near {{at}} cannot be triangulated",
+            names,
+            at=draft.points[0],
         )
+
+    def _names(self, pair: tuple[int, int]) -> list[str]:
+        return [self._incidence.sites[site].name for site in pair]
 
     def _fill(self, draft: _Draft, error: SparseError) -> None:
         """Add points to a periodic domain that has too few, where the sheets are if possible."""
         domain = draft.domain
         if domain is None:
             raise error
-        spots = error.places
+        spots = error.spots
         if not len(spots):
             low, high = draft.uv.min(axis=0), draft.uv.max(axis=0)
             count = FILL + len(draft.used) - len(draft.uv)

@@ -18,7 +18,7 @@ from decomp.medial.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
 from decomp.medial.trim_surfaces import RuledSurface, strip
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
+from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 STRAIGHT = 1e-9
 """The area of a triangle on a straight line, in parts of the square of its side."""
@@ -152,7 +152,7 @@ class TrimMaker:
         feet = curve.feet(np.array(stops))
         off = norm(self._points[lower[below]] - feet) > AT_END * self._size
         if off.any():
-            raise GeometryError(f"the edge has no vertex at {place(feet[np.argmax(off)])}")
+            raise GeometryError("the edge has no vertex at {at}", at=feet[np.argmax(off)])
         found = []
         for k, (first, last) in enumerate(itertools.pairwise(stops)):
             one, two = slice(below[k], below[k + 1] + 1), slice(above[k], above[k + 1] + 1)
@@ -204,8 +204,7 @@ class TrimMaker:
         lines, parameters = [runs[0][0]], [runs[0][1]]
         for (before, _), (line, s) in itertools.pairwise(runs):
             if line[0] != before[-1]:
-                where = place(self._points[line[0]])
-                raise GeometryError(f"the trim near {where} has a gap")
+                raise GeometryError("the trim near {at} has a gap", at=self._points[line[0]])
             lines.append(line[1:])
             parameters.append(s[1:])
         return np.concatenate(lines), np.concatenate(parameters)
@@ -220,8 +219,8 @@ class TrimMaker:
         while line[-1] != ends[1] or (centres.closed and len(line) == 1):
             step = self._next_on_locus(line, centres)
             if step is None:
-                middle = place(run.points[len(run.points) // 2])
-                raise GeometryError(f"no reflexive curve leads past {middle}")
+                middle = run.points[len(run.points) // 2]
+                raise GeometryError("no reflexive curve leads past {at}", at=middle)
             line.extend(step)
         vertices = np.array(line, dtype=np.int64)
         return vertices, run.s[centres.nearest(self._points[vertices])]
@@ -242,7 +241,7 @@ class TrimMaker:
         gaps = norm(self._points - point)
         number = int(np.argmin(gaps))
         if float(gaps[number]) > AT_END * self._size:
-            raise GeometryError(f"no reflexive curve leads to {place(point)}")
+            raise GeometryError("no reflexive curve leads to {at}", at=point)
         return number
 
     def _along(self, curve: NormalCurve, points: Array) -> Array:
@@ -360,4 +359,4 @@ def _out_of_face(incidence: Incidence, face: int, edge: int, foot: Array) -> Arr
             if number == edge:
                 # the face lies on the left of its loop, seen from outside
                 return np.asarray(-cross(outward, sense * tangent))
-    raise GeometryError(f"the edge at {place(foot)} is not one of its face's")
+    raise GeometryError("the edge at {at} is not one of its face's", at=foot)

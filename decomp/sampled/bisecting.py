@@ -11,7 +11,7 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.sampled.interior import Interior
-from decomp.vectors import Array, Bools, Ints, norm, place
+from decomp.vectors import Array, Bools, Ints, norm
 
 EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
@@ -170,7 +170,7 @@ class Bisected:
     def _on_line(self, patches: tuple[int, ...], point: Array) -> Array:
         """A point on the nearest line along which patches meet."""
         if patches not in self._lines:
-            raise GeometryError(f"tetrahedra do not follow the edge near {place(point)}")
+            raise GeometryError("tetrahedra do not follow the edge near {at}", at=point)
         lines = self._elements.of_line[self._lines[patches]]
         placed: Array = self._elements.place(lines, np.repeat(point[None], len(lines), axis=0))
         nearest = int(np.argmin(norm(placed - point)))

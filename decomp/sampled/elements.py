@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.sampled.placing import Placer
-from decomp.vectors import Array, norm, place
+from decomp.vectors import Array, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,10 @@ def _placed(placer: Placer, sites: tuple[int, ...], points: Array, what: str) ->
         return np.array(points)
     found = placer.place(sites, points)
     if not found.good.all():
-        names = " and ".join(placer.names(sites))
-        bad = place(points[~found.good][0])
-        raise GeometryError(f"a point near {bad} cannot be moved onto the {what} of {names}")
+        names = placer.names(sites)
+        raise GeometryError(
+            f"a point near {{at}} cannot be moved onto the {what} of {' and '.join(names)}",
+            names,
+            at=points[~found.good][0],
+        )
     return found.points

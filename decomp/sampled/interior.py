@@ -31,7 +31,7 @@ from decomp.tetra.strayed import strayed
 from decomp.tetra.surface import MeshSurface, RegionSurface
 from decomp.tetra.tetrahedra import filled
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Ints, place
+from decomp.vectors import Array, Ints
 
 CHORD = 0.4
 """How far the triangles for TetWild may be off the boundary, in parts of its epsilon."""
@@ -118,8 +118,9 @@ def interior(
     fit = filled(prepared, limit, lambda what, done: tell(what)).fit
     left = strayed(fit.points, fit.tagged, plan, elements, TOLERANCE * geometry.diagonal)
     if len(left):
-        at = place(fit.points[left[0]])
-        raise GeometryError(f"tetrahedra do not conform to the boundary near {at}")
+        raise GeometryError(
+            "tetrahedra do not conform to the boundary near {at}", at=fit.points[left[0]]
+        )
     return Interior(
         fit.points,
         fit.tets,

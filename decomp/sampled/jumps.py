@@ -9,8 +9,9 @@ import numpy as np
 from decomp.complex.model import Complex
 from decomp.medial.result import RegionSkeleton
 from decomp.medial.sheet_surface import SheetSurface
+from decomp.places import place
 from decomp.sites.site import Site
-from decomp.vectors import Array, place
+from decomp.vectors import Array
 
 LEAST = 1e-3
 """Radians between the directions to both feet, at the least, inside a sheet."""

@@ -146,7 +146,7 @@ def _attempt(
                 found.certificate.volume_error / VOLUME,
                 found.certificate.chord_error / tolerance,
             )
-            lines = explained(found, tolerance, geometry.sites)
+            lines = [str(line) for line in explained(found, tolerance, geometry.sites)]
             lines += without_jump(made, described.radius, region, geometry.sites)
             failures += [f"region {region.name}: {line}" for line in lines]
         result = _Try(None, failures)

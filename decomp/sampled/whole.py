@@ -24,7 +24,7 @@ from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Ints, cross, norm, place
+from decomp.vectors import Array, Ints, cross, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,8 +133,9 @@ def _with_lines(
         else:
             walls_at = [p for p in chain.patches if p >= boundary]
             if own or not walls_at:
-                at = place(points[ends[0]])
-                raise GeometryError(f"faces or walls meet where there is no edge, at {at}")
+                raise GeometryError(
+                    "faces or walls meet where there is no edge, at {at}", at=points[ends[0]]
+                )
             meeting: tuple[int, ...] = tuple(
                 sorted({site for p in walls_at for site in of_patch[p]})
             )

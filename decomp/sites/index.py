@@ -22,7 +22,7 @@ from decomp.sites.points import BLOCK, checked_points
 from decomp.sites.site import Site, sites_of
 from decomp.sites.site_boxes import bounds_of
 from decomp.sites.site_table import RegionSites, region_sites
-from decomp.vectors import Array, Bools, Ints, place
+from decomp.vectors import Array, Bools, Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,7 +196,7 @@ class SiteIndex:
         found, slots = found[here], slots[here]
         if (found < 0).any():
             lost = points[here[found < 0][0]]
-            raise GeometryError(f"no boundary of region {label} found from {place(lost)}")
+            raise GeometryError(f"no boundary of region {label} found from {{at}}", at=lost)
         site = part.sites.site_of[found]
         faces = len(part.boundary.faces)
         crowded = np.zeros(len(here), dtype=np.bool_)

@@ -21,6 +21,7 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.paths import path_of
+from decomp.places import place
 from decomp.tetra.check_cells import KnownCells, cells_named
 from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings
@@ -30,7 +31,7 @@ from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Array, Ints, place, positive
+from decomp.vectors import Array, Ints, positive
 
 EPSILON = 2e-3
 """Default of what meshes may leave their cells by, relative to the region's diagonal."""

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from decomp.places import place
 from decomp.tetra.incidence import faces_of, incidence, row_keys
 from decomp.tetra.msh_reader import NONE, SEVERAL, ReadMesh
 from decomp.tetra.quality import inverted
-from decomp.vectors import Array, Ints, place
+from decomp.vectors import Array, Ints
 
 TET_EDGES = np.array([[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]])
 TRIANGLE_EDGES = TET_EDGES[:3]

@@ -19,7 +19,7 @@ from decomp.sites import SiteIndex
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import RegionQueries, region_queries
 from decomp.tracing.shrinking import OSCULATES, RESTLESS, SIZELESS, TOUCHES, shrink
-from decomp.vectors import Array, Ints, place
+from decomp.vectors import Array, Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +52,10 @@ def inscribed_balls(
     balls, state = balls_at(queries, points, inward, boundary.diagonal)
     for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
         if (state == bad).any():
-            where = place(points[np.argmax(state == bad)])
-            raise GeometryError(f"the ball that touches the boundary at {where} {what}")
+            raise GeometryError(
+                f"the ball that touches the boundary at {{at}} {what}",
+                at=points[np.argmax(state == bad)],
+            )
     two = np.flatnonzero(state == TOUCHES)
     towards = balls.centre[two] + TOWARDS * (balls.foot[two] - balls.centre[two])
     balls.site[two] = queries.nearest(towards).site

@@ -26,7 +26,7 @@ from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import State
-from decomp.vectors import Array, Ints, frame, norm, place
+from decomp.vectors import Array, Ints, frame, norm
 
 AHEAD = (1e-2, 1e-3, 1e-4, 1e-5, 3e-2, 1e-1)
 """How far ahead it is looked, as parts of the radius, in this order."""
@@ -53,7 +53,7 @@ def departures(
         found = _at(points, point, touching, ray, part * touching.radius)
         if found is not None:
             return found
-    raise GeometryError(f"the seams that leave {place(point)} cannot be told apart")
+    raise GeometryError("the seams that leave {at} cannot be told apart", at=point)
 
 
 def _at(

@@ -26,7 +26,7 @@ from decomp.tracing.seams import SeamTracer
 from decomp.tracing.seeds import Seeds, seam_seeds
 from decomp.tracing.supports import support_table
 from decomp.tracing.traced_seams import joined, seam_between, seam_of
-from decomp.vectors import Array, Ints, norm, place
+from decomp.vectors import Array, Ints, norm
 
 __all__ = ["Node", "Piece", "Seam", "SeamGraph", "missed_seams", "seam_graph"]
 
@@ -161,7 +161,7 @@ class _Grower:
             state = self._points.settled(ahead, feet, ray.direction)
             if state is not None:
                 return state
-        raise GeometryError(f"the seam from {place(point)} cannot be followed")
+        raise GeometryError("the seam from {at} cannot be followed", at=point)
 
     def grow(self) -> None:
         """Follow rays until none is left."""
@@ -216,7 +216,7 @@ class _Grower:
             if self._is_on_locus(point, feet):
                 continue
             if not self._seams.near(point, BESIDE * float(norm(point - feet[0]))):
-                raise GeometryError(f"the seam near {place(point)} cannot be found exactly")
+                raise GeometryError("the seam near {at} cannot be found exactly", at=point)
 
     def _is_on_locus(self, point: Array, feet: Array) -> bool:
         """Whether a point is a centre of curvature of a face that it touches.

@@ -18,7 +18,7 @@ from decomp.tracing.local import SeamRay
 from decomp.tracing.seam_graph_model import Node
 from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import State
-from decomp.vectors import Array, norm, place
+from decomp.vectors import Array, norm
 
 WELD = 1e-7
 """Nodes nearer than this part of the size are one."""
@@ -70,9 +70,7 @@ class GraphNodes:
         else:
             point = last.point + last.radius / -last.slope * last.tangent
             if not float(norm(point - last.point)) <= ENDING * self._size:
-                raise GeometryError(
-                    f"the end of a seam on the boundary near {place(point)} is lost"
-                )
+                raise GeometryError("the end of a seam on the boundary near {at} is lost", at=point)
         number = self.add(Node(point, 0.0, (), np.empty((0, 3)), ()), [])
         self._unforeseen.add(number)
         return number
@@ -84,7 +82,9 @@ class GraphNodes:
         point = found.points[0]
         if not float(norm(point - last.point)) <= 1e-4 * self._size:
             raise GeometryError(
-                f"the junction at the end of a seam near {place(last.point)} is lost"
+                "the junction at the end of a seam near {at} is lost",
+                self._points.names([*last.sites, intruder]),
+                last.point,
             )
         on_axis = self._arcs.on_axis(last, intruder, point)
         return self.at(point if on_axis is None else on_axis)
@@ -184,7 +184,7 @@ class GraphNodes:
             self._add_fin(number, last, contacts, seam)
             return
         if not fitting:
-            raise OversteppedError(f"a seam arrives at {place(node.point)} where none leaves")
+            raise OversteppedError("a seam arrives at {at} where none leaves", at=node.point)
         best = max(fitting, key=lambda k: float(node.rays[k].direction @ -last.tangent))
         self.taken[number, best] = seam
 

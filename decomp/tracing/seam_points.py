@@ -41,6 +41,10 @@ class SeamPoints:
         self.contacts = ContactFinder(index, boundary, region)
         self.queries = region_queries(index, region)
 
+    def names(self, sites: Sequence[int]) -> list[str]:
+        """Of some sites, for messages."""
+        return [self.index.sites[site].name for site in sites]
+
     def state(self, sites: Sequence[int], point: Array, feet: Array, along: Array) -> State | None:
         """The point of a seam next to `point`, travelling in the sense of `along`."""
         at = Stretch(tuple(sites), 1)

@@ -21,7 +21,7 @@ from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import SeamEnd, State, Traced
 from decomp.tracing.seam_stops import SeamStops, nearest_pair
 from decomp.tracing.stretch import Stretch
-from decomp.vectors import Array, norm, place
+from decomp.vectors import Array, norm
 
 ROOM = 1024
 MOST_RUNS = 1000
@@ -95,13 +95,15 @@ class SeamTracer:
                     return Traced(tuple(runs), last, SeamEnd.CLOSED, -1, nothing)
                 if self._stuck_at_node(last):
                     return Traced(tuple(runs), last, SeamEnd.SPLIT, -1, nothing)
-                raise GeometryError(f"a seam cannot be followed past {place(last.point)}")
+                names = points.names(last.sites)
+                raise GeometryError("a seam cannot be followed past {at}", names, last.point)
             beyond = stretch.state(count)
             if why == INTRUDED:
                 found = points.queries.nearest(beyond.point[None])
                 intruder = int(found.site[0])
                 if found.region[0] != points.region:
-                    raise GeometryError(f"a seam leaves the region at {place(last.point)}")
+                    names = points.names(last.sites)
+                    raise GeometryError("a seam leaves the region at {at}", names, last.point)
                 contact = self._neighbour(here.sites, beyond, intruder, found.foot[0])
                 landed = self._stops.landing(stretch, count) if contact < 0 else None
                 if landed is not None:
@@ -128,8 +130,11 @@ class SeamTracer:
                     # not over the edge: two sites that meet there, each with a foot beside it
                     runs.append(stretch.run(count))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
-                near = place(stretch.track.points[count - 1])
-                raise GeometryError(f"a seam cannot be followed past the trim near {near}")
+                raise GeometryError(
+                    "a seam cannot be followed past the trim near {at}",
+                    points.names(here.sites),
+                    at=stretch.track.points[count - 1],
+                )
             kept, at = crossed
             runs.append(stretch.run(kept))
             if _merged(at, MET):
@@ -139,7 +144,8 @@ class SeamTracer:
             if switched is None:
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
             here = switched
-        raise GeometryError(f"the seam from {place(start.point)} does not end")
+        names = points.names(start.sites)
+        raise GeometryError("the seam from {at} does not end", names, start.point)
 
     def _stuck_at_node(self, last: State) -> bool:
         """Whether a seam ends where it cannot be followed: more is touched, or a whole arc is."""

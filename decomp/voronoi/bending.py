@@ -14,7 +14,7 @@ import numpy as np
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.errors import GeometryError
-from decomp.vectors import Array, cross, dot, frame, norm, place
+from decomp.vectors import Array, cross, dot, frame, norm
 
 STEEP = 1e-9
 """Gradients (of differences of distances) that are shorter have no direction."""
@@ -45,7 +45,7 @@ def level_curvatures(gradient: Array, hessian: Array, p: Array) -> Curvatures:
     steep = norm(gradient)
     if (steep <= STEEP).any():
         where = np.asarray(p)[steep <= STEEP].reshape(-1, 3)[0]
-        raise GeometryError(f"the two distances change alike at {place(where)}: no tangent plane")
+        raise GeometryError("the two distances change alike at {at}: no tangent plane", at=where)
     normal = gradient / steep[..., None]
     flat = normal.reshape(-1, 3)
     across = np.array([np.stack(frame(n)) for n in flat]).reshape(*normal.shape[:-1], 2, 3)

@@ -161,10 +161,11 @@ class VoronoiSurface:
             q, value = q - step, ahead
         lost = ~self.contains(q)
         if lost.any():
-            where = np.asarray(p, dtype=np.float64)[lost].reshape(-1, 3)[0]
             raise GeometryError(
                 f"no point of the {self.parity.value} Voronoi surface of {self.f.name} and "
-                f"{self.g.name} is found near {tuple(float(x) for x in where)}"
+                f"{self.g.name} is found near {{at}}",
+                (self.f.name, self.g.name),
+                at=np.asarray(p, dtype=np.float64)[lost].reshape(-1, 3)[0],
             )
         return q
 

@@ -116,7 +116,7 @@ def test_a_ball_too_large_is_noticed() -> None:
     assert found.certificate.intrusion == pytest.approx(1e-6 / block().geometry.diagonal, rel=1e-6)
     lines = explained(found, TOLERANCE, block().skeleton.sites)
     assert len(lines) == 2
-    assert lines[1].startswith("intrusion is 1.86e-07, allowed 1e-09, at (3, 2, 1) of block.")
+    assert str(lines[1]).startswith("intrusion is 1.86e-07, allowed 1e-09, at (3, 2, 1) of block.")
 
 
 def test_a_missing_sheet_is_noticed() -> None:
