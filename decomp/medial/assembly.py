@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -88,6 +89,10 @@ class RegionAssembler:
         self._before = before
         self._new: list[Array] = []
         self._size = curves.incidence.boundary.diagonal
+        # vertices are the first nodes
+        edges = [e.vertices for e in curves.incidence.boundary.edges if e.vertices is not None]
+        ends = [piece.ends for piece in curves.pieces if piece.ends is not None]
+        self._between = Counter(_ends(each) for each in (*edges, *ends))
 
     def assemble(self) -> RegionParts:
         """Make the region's lines, sheets and trim surfaces.
@@ -162,11 +167,14 @@ class RegionAssembler:
         """Chords that are needed beyond those that the tolerance asks for.
 
         Trim surfaces need some along their upper ends, lest their triangles fold, and the sheets of
-        an edge with itself, lest the feet of neighbouring points be mistaken for each other.
+        an edge with itself, lest the feet of neighbouring points be mistaken for each other. Curves
+        between the same two nodes must not share a chord.
         """
         if piece.kind is LineKind.REFLEXIVE and any(not run.resting for run in self._curves.runs):
             return ALONG_LOCI
         least = ALONG_SELF if any(a == b for a, b in piece.pairs) else 1
+        if piece.ends is not None and self._between[_ends(piece.ends)] > 1:
+            least = max(least, 2)
         turns = [0.0]
         for number in piece.over:
             ways = self._curves.over[number].directions(
@@ -247,3 +255,8 @@ class RegionAssembler:
                     if max(float(axis_gap(curve, end[None])[0]), abs(away)) <= AT_END * self._size:
                         found.add(incidence.edge_site[edge])
         return found
+
+
+def _ends(nodes: Pair) -> Pair:
+    """The two nodes at the ends of a curve, whichever is first."""
+    return (min(nodes), max(nodes))

@@ -20,6 +20,8 @@ from decomp.vectors import Array, Ints, norm
 
 WELD = 1e-7
 """Nodes nearer to each other than this part of the region's size are one."""
+LEAST = 10
+"""A piece from a node back to it is longer than so many times `WELD`."""
 ON = 3e-8
 """Nodes nearer to a curve than this part of the size lie on it."""
 
@@ -98,7 +100,8 @@ def network(
             to rounding and that is marked by `ends` None and `closed` points stays closed.
     """
     open_ = [p for p in pieces if not _is_loop(p)]
-    loops = [p for p in pieces if _is_loop(p)]
+    # a seam that comes back to its start at once is no more than its node
+    loops = [p for p in pieces if _is_loop(p) and p.length > LEAST * WELD * size]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
     firm, loose = (np.array(points).reshape(-1, 3) for points in (turns, touches))
     every = np.concatenate([fixed, firm, ends, loose])
@@ -109,7 +112,7 @@ def network(
     for piece, (a, b) in zip(open_, numbers.tolist(), strict=True):
         points = np.array(piece.points)
         points[0], points[-1] = nodes[a], nodes[b]
-        if a == b and piece.length <= 10 * WELD * size:
+        if a == b and piece.length <= LEAST * WELD * size:
             continue
         joined.append(replace(piece, points=points, ends=(a, b)))
     tree = cKDTree(nodes)

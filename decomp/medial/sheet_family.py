@@ -8,7 +8,8 @@ import numpy as np
 
 from decomp.medial.incidence import Incidence
 from decomp.tracing.equidistance import placed_between
-from decomp.tracing.fields import site_fields
+from decomp.tracing.fields import Field, site_fields
+from decomp.tracing.supports import FACE, support_table
 from decomp.vectors import Array, Bools, Ints, norm
 
 CLEAR = 1e-9
@@ -40,9 +41,23 @@ class SheetFamily:
         Where one is not, its member has to be asked by itself.
         """
         it, pairs = self._incidence, self._sites[which]
-        one, two = (
-            site_fields(it.boundary, it.sites, pairs[:, k], points, points).gradient for k in (0, 1)
-        )
-        length = norm(one - two)
+        one, two = (site_fields(it.boundary, it.sites, pairs[:, k], points, points) for k in (0, 1))
+        found = difference(it, pairs, (one, two))
+        length = norm(found)
         good = length > CLEAR
-        return (one - two) / np.where(good, length, 1.0)[:, None], good
+        return found / np.where(good, length, 1.0)[:, None], good
+
+
+def difference(incidence: Incidence, pairs: Ints, fields: tuple[Field, Field]) -> Array:
+    """Differences (k, 3) of the gradients of distances from two sites (k, 2) each.
+
+    They vanish where a point is on an edge or vertex, from which it has no direction; from a face
+    it has one there too.
+    """
+    one, two = fields
+    found = one.gradient - two.gradient
+    kinds = support_table(incidence.boundary, incidence.sites).kinds
+    for column, field in enumerate(fields):
+        on = np.abs(field.distance) <= CLEAR * incidence.boundary.diagonal
+        found[on & (kinds[pairs[:, column]] != FACE)] = 0.0
+    return np.asarray(found)

@@ -11,7 +11,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
 from decomp.medial.incidence import Incidence
-from decomp.medial.sheet_family import CLEAR, SheetFamily
+from decomp.medial.sheet_family import CLEAR, SheetFamily, difference
 from decomp.tracing.equidistance import placed_between
 from decomp.tracing.fields import Field, site_fields
 from decomp.tracing.loci import on_locus
@@ -112,12 +112,12 @@ class SheetSurface:
         return np.where(lost, np.nan, angle), one.distance
 
     def _difference(self, points: Array, feet: Array) -> Array:
-        one, two = self._fields(points, feet)
-        return np.asarray(one.gradient - two.gradient)
+        pairs: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        return difference(self.incidence, pairs, self._fields(points, feet))
 
-    def _fields(self, points: Array, feet: Array) -> list[Field]:
+    def _fields(self, points: Array, feet: Array) -> tuple[Field, Field]:
         it = self.incidence
-        return [
+        one, two = (
             site_fields(
                 it.boundary,
                 it.sites,
@@ -126,7 +126,8 @@ class SheetSurface:
                 feet[:, column],
             )
             for column, site in enumerate(self.sites)
-        ]
+        )
+        return one, two
 
     def _feet_near(self, points: Array) -> Array:
         """Feet (k, 2, 3) from which those of points are found, if a site's foot depends on them.

@@ -117,7 +117,7 @@ class SeamStops:
     def landing(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where a seam ends on the reflexive locus of a face that its edges bound.
 
-        None if it does not, close to the last of `count` rows.
+        None if it does not, close to the last of `count` rows, or something else is nearer there.
         """
         spare, last = count + 1, stretch.state(count - 1)
 
@@ -132,7 +132,7 @@ class SeamStops:
 
         for off in self._points.loci_near(last):
             found = landing(ahead, settle, off, last)
-            if found is not None:
+            if found is not None and self._points.holds(found[1]):
                 between, end = found
                 kept = count
                 for state in (*between, end):
