@@ -138,17 +138,21 @@ def place_each(curves: Sequence[CurveElement], which: Ints, points: Array) -> Ar
 
 @dataclass(frozen=True, eq=False)
 class TrimCurve:
-    """Centres of the balls over a normal curve that touch one far site.
+    """Centres of the balls over a part of a normal curve that touch one far site.
 
     Args:
         incidence: of the region.
         over: the normal curve.
+        start, end: parameters between which the far site is touched. Farther on there may be balls
+            that touch the line or carrier that it is a part of.
         far: the far site.
         points, feet: known centres (k, 3) and their far feet (k, 3).
     """
 
     incidence: Incidence
     over: NormalCurve
+    start: float
+    end: float
     far: int
     points: Array
     feet: Array
@@ -162,8 +166,9 @@ class TrimCurve:
         return self.at(*self._over(points))
 
     def try_place(self, points: Array) -> Array:
-        """The same, nan where there is no ball."""
-        return self._centres(try_radius, *self._over(points))
+        """The same, nan where there is no ball; points beside the trim move to its ends."""
+        s, guess = self._over(points)
+        return self._centres(try_radius, self._within(s), guess)
 
     def at(self, s: Array, guess: Array) -> Array:
         """The centres (k, 3) over parameters (k,), their radii being about `guess`.
@@ -179,6 +184,15 @@ class TrimCurve:
         # a point far off may even be on the edge; the curve is not there
         known = norm(self.points - self.feet)[nearest_rows(self.points, points)]
         return s, np.maximum(norm(points - self.over.feet(s)), LEAST * known)
+
+    def _within(self, s: Array) -> Array:
+        """Parameters (k,) between start and end, the nearer one of both for others."""
+        if not self.over.closed:
+            return np.clip(s, self.start, self.end)
+        period = self.over.end - self.over.start
+        middle = (self.start + self.end) / 2
+        turned = s - period * np.round((s - middle) / period)
+        return np.clip(turned, self.start, self.end)
 
     def _centres(self, solve: Callable[..., Array], s: Array, guess: Array) -> Array:
         q, n = self.over.feet(s), self.over.directions(s)

@@ -196,7 +196,7 @@ def _trim_piece(
     which: Ints = np.full(len(s), far, dtype=np.int64)
     feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
     points = balls.centre
-    curve = TrimCurve(incidence, over, far, points, feet)
+    curve = TrimCurve(incidence, over, trim.start, trim.end, far, points, feet)
     points = curve.at(s, balls.radius)
     ends = []
     for near, next_, stop in ((0, 1, trim.start), (-1, -2, trim.end)):

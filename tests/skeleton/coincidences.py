@@ -48,6 +48,12 @@ def notched_bar_in_air() -> Solid:
     return Block((-90, -90, -90), (180, 180, 180)) - bar
 
 
+def angle_in_wide_air() -> Solid:
+    """Beyond its end a trim goes on as one of the line that an edge is a part of."""
+    angle = Block((-2, -3, -1), (2, 6, 2)) | Block((0, -3, -1), (2, 2, 2))
+    return Sphere((0, 0, 0), 150) - angle
+
+
 def sunk_plate() -> Solid:
     """The hole is as deep as its radius, and its bottom as thick: contacts tie in a point."""
     return Block((0, 0, 0), (60, 48, 8)) - Cylinder((40, 12, 4), (40, 12, 9), 4)
@@ -166,6 +172,7 @@ COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
     "notched bar in air": Coincidence(notched_bar_in_air, (180.0**3 - 1.8,), (2,)),
+    "angle in wide air": Coincidence(angle_in_wide_air, (4.5e6 * pi - 32,), (2,)),
     "sunk plate": Coincidence(sunk_plate, (60 * 48 * 8 - 64 * pi,), (1,)),
     "chisel": Coincidence(chisel, (_chisel_volume(),), (1,)),
     "rod with eye": Coincidence(rod_with_eye, (600 * pi + 4 * (552 - 100 * asin(0.6)),), (0,)),
