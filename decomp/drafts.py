@@ -13,9 +13,9 @@ from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import ContactError
 from decomp.geometry import Geometry
 from decomp.medial.assembly import RegionAssembler, RegionParts
+from decomp.medial.drawn_sheets import CrossingError
 from decomp.medial.region_curves import RegionCurves, region_curves
 from decomp.medial.result import TrimSurface
-from decomp.medial.sheets import CrossingError
 from decomp.medial.trim_maker import BoundaryVertices
 from decomp.vectors import Array, Ints
 

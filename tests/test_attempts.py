@@ -15,7 +15,7 @@ from decomp.attempts import Way, first_of, stage
 from decomp.cli.main import main
 from decomp.errors import EmptyRegionError, GeometryError, OverlapError, Try
 from decomp.located import located
-from decomp.medial.sheets import CrossingError
+from decomp.medial.drawn_sheets import CrossingError
 from decomp.places import seen_from
 
 BALLS = """algebraic3d

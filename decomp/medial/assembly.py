@@ -15,6 +15,7 @@ from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.medial.closed_sheets import ClosedSheetMaker
 from decomp.medial.curve_elements import RayCurve
+from decomp.medial.drawn_sheets import SheetPart
 from decomp.medial.leaving_together import matched
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
@@ -22,7 +23,7 @@ from decomp.medial.result import TrimSurface
 from decomp.medial.rim_curve import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
-from decomp.medial.sheets import SheetMaker, SheetPart
+from decomp.medial.sheets import SheetMaker
 from decomp.medial.trim_maker import AT_END, BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind

@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from decomp.medial.drawn_sheets import SheetPart
 from decomp.medial.incidence import Incidence
 from decomp.medial.sheet_surface import SheetSurface
-from decomp.medial.sheets import SheetPart
 from decomp.medial.trim_maker import AT_END, BoundaryVertices
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import Balls, inscribed_balls

@@ -9,11 +9,11 @@ import numpy as np
 
 from decomp.complex.model import Complex, LineKind
 from decomp.medial.assembly import RegionParts
+from decomp.medial.drawn_sheets import SheetPart
 from decomp.medial.radius_along import ranges_along
 from decomp.medial.radius_range import DrawnSheet, SheetRadii
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import Junction, Parity, Reflexive, Sheet, SkeletonLine
-from decomp.medial.sheets import SheetPart
 from decomp.sites.site import SiteKind
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Ints, cross, norm

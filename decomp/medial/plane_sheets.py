@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from decomp.complex.planar import crossings, triangulate
+from decomp.complex.planar import Triangulation
 from decomp.medial.component_votes import kept_components
+from decomp.medial.drawn_sheets import DrawnCurves, SheetPart
 from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.sheet_tests import SheetTests
-from decomp.medial.sheets import CrossingError, SheetPart
 from decomp.vectors import Array, Bools, Ints
 
 FLAT = 1e-9
@@ -62,25 +62,20 @@ class PlaneSheets:
         segments = np.unique(np.sort(segments, axis=1), axis=0)
         used, local = np.unique(segments, return_inverse=True)
         local = local.reshape(segments.shape)
-        points = self._points[used]
+        points, name = self._points[used], self._tests.name(self._site)
         uv = plane.coordinates(points)
-        bad = crossings(uv, local)
-        if len(bad):
-            rows = np.unique(bad)
-            raise CrossingError(
-                "curves cross in a plane of symmetry near {at}",
-                segments[rows],
-                (self._tests.name(self._site),),
-                points[local[rows[0], 0]],
-            )
-        flat = triangulate(uv, local)
+        curves = DrawnCurves(used, points, uv, local, None, (name,), "a plane of symmetry")
+        curves.check_crossings()
 
-        def ask(rows: Ints, weights: Array) -> Bools:
-            where = np.einsum("ij,ijk->ik", weights, points[flat.triangles[rows]])
-            return self._tests.mirror(self._site, where, plane.mirrored)
+        def kept(found: Triangulation) -> list[int]:
+            def ask(rows: Ints, weights: Array) -> Bools:
+                where = np.einsum("ij,ijk->ik", weights, points[found.triangles[rows]])
+                return self._tests.mirror(self._site, where, plane.mirrored)
 
-        kept = kept_components(flat, points, ask, "of an edge with itself")
+            return kept_components(found, points, ask, "of an edge with itself")
+
+        flat, numbers = curves.triangulated(kept)
         return [
             SheetPart((self._site, self._site), plane, used[flat.triangles[flat.component == k]])
-            for k in kept
+            for k in numbers
         ]

@@ -14,9 +14,9 @@ import numpy as np
 from decomp.complex.domain_base import Domain
 from decomp.complex.domain_edges import even_strip
 from decomp.complex.model import SurfaceElement
-from decomp.complex.planar import SparseError, Triangulation, crossings, triangulate
-from decomp.errors import GeometryError
+from decomp.complex.planar import Triangulation
 from decomp.medial.component_votes import MissingCurveError, incentres, kept_components
+from decomp.medial.drawn_sheets import DrawnCurves, Footprint, SheetPart, facing
 from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.footprint_lines import FootprintLines, drawn_lines
 from decomp.medial.incidence import Incidence
@@ -25,10 +25,8 @@ from decomp.medial.plane_sheets import PlaneSheets
 from decomp.medial.rim_curve import RimCurve
 from decomp.medial.self_surface import SelfSheetSurface
 from decomp.medial.sheet_tests import SheetTests
-from decomp.medial.sheets import COARSE, ROUNDS, CrossingError, SheetPart
 from decomp.sites import SiteIndex
-from decomp.tracing.balls import Balls
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm
+from decomp.vectors import Array, Bools, Ints, norm
 
 TESTS = 5
 """Triangles of each component whose far feet are asked for."""
@@ -97,80 +95,63 @@ class _EdgeSheets:
         self._wells = EdgeWells(self._edge)
         used = points[np.unique(np.concatenate(list(lines)))]
         reach = float(np.median(norm(used - incidence.feet((site,), used)[:, 0])))
-        self._domain: Domain = even_strip(boundary, incidence.sites[site].index, reach)
+        domain: Domain = even_strip(boundary, incidence.sites[site].index, reach)
         self._drawn: FootprintLines = drawn_lines(
-            points, lines, self._domain, self._wells, self._edge.curve, self._size
+            points, lines, domain, self._wells, self._edge.curve, self._size
         )
         self._rims = rims
-        self._uv, self._points = self._drawn.uv, points[self._drawn.vertex]
+        self._footprint = Footprint(tests, domain, site, site)
+        self._curves = DrawnCurves(
+            self._drawn.vertex,
+            points[self._drawn.vertex],
+            self._drawn.uv,
+            self._drawn.segments,
+            self._footprint,
+            (self._name,),
+            f"the footprint of the edge {self._name}",
+        )
 
     def parts(self, add: Callable[[Array], int]) -> list[SheetPart]:
         """The sheets; points inside them are made vertices."""
-        self._check_crossings()
-        for _ in range(ROUNDS):
-            try:
-                found = triangulate(self._uv, self._drawn.segments, self._domain.period)
-            except SparseError as error:
-                self._fill(error)
-                continue
-            one_each = self._one_of_each_pair(found)
-            planes = {number: self._plane(found, number) for number in one_each}
-            bent = [number for number, plane in planes.items() if plane is None]
-            if not self._add_where_coarse(found, bent):
-                return self._finished(found, planes, add)
-        raise GeometryError(
-            f"the sheet that the edge {self._name} has with itself near "
-            "{at} cannot be triangulated",
-            (self._name,),
-            at=self._points[0],
-        )
+        self._curves.check_crossings()
+        found, one_each = self._curves.triangulated(self._one_of_each_pair, self._bent)
+        planes = {number: self._plane(found, number) for number in one_each}
+        parts = [
+            part
+            for number, plane in planes.items()
+            if plane is not None
+            for part in self._flat.sheets(plane, self._border(found, number))
+        ]
+        bent = [number for number, plane in planes.items() if plane is None]
+        numbers = self._curves.numbered(found.triangles[np.isin(found.component, bent)], add)
+        for number in bent:
+            rows = np.flatnonzero(found.component == number)
+            triangles = found.triangles[rows]
+            surface: SurfaceElement = self._surface(found, rows)
+            points = self._curves.points
+            turned = facing(points, triangles, surface.normal(points[triangles].mean(axis=1)))
+            parts.append(SheetPart((self._site, self._site), surface, numbers[turned]))
+        return parts
 
-    def _check_crossings(self) -> None:
-        drawn = self._drawn
-        bad = crossings(drawn.uv, drawn.segments, self._domain.period)
-        if len(bad):
-            rows = np.unique(bad)
-            raise CrossingError(
-                f"curves cross in the footprint of the edge {self._name} near {{at}}",
-                drawn.vertex[drawn.segments[rows]],
-                (self._name,),
-                self._points[drawn.segments[rows[0], 0]],
-            )
-
-    def _fill(self, error: SparseError) -> None:
-        """Add points where a periodic domain has too few."""
-        if not len(error.spots):
-            raise error
-        feet, inward = self._domain.lift(error.spots)
-        balls = self._tests.balls(feet, inward)
-        self._more(error.spots, balls.centre)
-
-    def _more(self, uv: Array, points: Array) -> None:
-        self._uv = np.concatenate([self._uv, uv])
-        self._points = np.concatenate([self._points, points])
-
-    def _balls(self, found: Triangulation, rows: Ints) -> tuple[Array, Balls]:
-        """The feet (k, 3) over the incentres of triangles, and the balls that touch there."""
-        weights, _ = incentres(found.corners[rows])
-        feet, inward = self._domain.lift(np.einsum("ij,ijk->ik", weights, found.corners[rows]))
-        return feet, self._tests.balls(feet, inward)
+    def _bent(self, found: Triangulation, numbers: list[int]) -> list[int]:
+        """The components whose sheets lie in no plane of symmetry."""
+        return [number for number in numbers if self._plane(found, number) is None]
 
     def _one_of_each_pair(self, found: Triangulation) -> list[int]:
         """One of the two components in which each sheet is drawn."""
 
         def ask(rows: Ints, weights: Array) -> Bools:
-            feet, inward = self._domain.lift(np.einsum("ij,ijk->ik", weights, found.corners[rows]))
-            return self._tests.touches(self._site, self._site, feet, inward)
+            return self._footprint.holds(found, rows, weights)
 
-        name = f"of the edge {self._name} with itself"
-        kept = kept_components(found, self._points, ask, name)
+        name, points = f"of the edge {self._name} with itself", self._curves.points
+        kept = kept_components(found, points, ask, name)
         partner = {number: self._partner(found, number) for number in kept}
         for one, other in partner.items():
             if other == one or partner.get(other) != one:
                 raise MissingCurveError(
                     f"the sheet {name} near {{at}} has no second side in the edge's footprint",
                     (self._name,),
-                    at=self._points[found.triangles[found.component == one][0, 0]],
+                    at=points[found.triangles[found.component == one][0, 0]],
                 )
         # which of the two must not depend on the points inside
         first = {
@@ -184,9 +165,9 @@ class _EdgeSheets:
         rows = np.flatnonzero(found.component == number)
         _, inradius = incentres(found.corners[rows])
         rows = rows[np.argsort(-inradius)[:TESTS]]
-        _, balls = self._balls(found, rows)
-        uv = self._domain.to_plane(balls.foot, balls.centre)
-        held = _holding(found, uv, np.array([p or 0.0 for p in self._domain.period]))
+        _, balls = self._footprint.balls_inside(found, rows)
+        uv = self._footprint.domain.to_plane(balls.foot, balls.centre)
+        held = _holding(found, uv, np.array([p or 0.0 for p in self._curves.period]))
         numbers = found.component[held[held >= 0]]
         values, counts = np.unique(numbers, return_counts=True)
         return int(values[np.argmax(counts)]) if len(values) else -1
@@ -195,54 +176,9 @@ class _EdgeSheets:
         """The plane of symmetry in which a component's sheet lies, None if there is none."""
         rows = np.flatnonzero(found.component == number)
         _, inradius = incentres(found.corners[rows])
-        _, balls = self._balls(found, rows[np.argsort(-inradius)[:TESTS]])
+        _, balls = self._footprint.balls_inside(found, rows[np.argsort(-inradius)[:TESTS]])
         corners = np.unique(found.triangles[rows])
-        return self._flat.plane(np.concatenate([self._points[corners], balls.centre]))
-
-    def _add_where_coarse(self, found: Triangulation, bent: Sequence[int]) -> bool:
-        """Add inner points where triangles leave their sheet by much; whether there were any."""
-        rows = np.flatnonzero(np.isin(found.component, bent))
-        if not len(rows):
-            return False
-        corners = self._points[found.triangles[rows]]
-        sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
-        feet, inward = self._domain.lift(found.centroids[rows])
-        balls = self._tests.balls(feet, inward)
-        off = norm(balls.centre - corners.mean(axis=1))
-        coarse = (off > COARSE * sides) & (balls.site == self._site)
-        if coarse.any():
-            self._more(found.centroids[rows][coarse], balls.centre[coarse])
-        return bool(coarse.any())
-
-    def _finished(
-        self,
-        found: Triangulation,
-        planes: dict[int, MirrorPlane | None],
-        add: Callable[[Array], int],
-    ) -> list[SheetPart]:
-        parts = [
-            part
-            for number, plane in planes.items()
-            if plane is not None
-            for part in self._flat.sheets(plane, self._border(found, number))
-        ]
-        planes = {n: plane for n, plane in planes.items() if plane is None}
-        drawn = len(self._drawn.vertex)
-        numbers = np.full(len(self._points), -1, dtype=np.int64)
-        numbers[:drawn] = self._drawn.vertex
-        for k in np.unique(found.triangles[np.isin(found.component, list(planes))]):
-            if k >= drawn:
-                numbers[k] = add(self._points[k])
-        for number in planes:
-            rows = np.flatnonzero(found.component == number)
-            triangles = found.triangles[rows]
-            surface: SurfaceElement = self._surface(found, rows)
-            corners = self._points[triangles]
-            normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            wanted = surface.normal(corners.mean(axis=1))
-            turned = triangles[:, ::-1] if float(dot(normals, wanted).sum()) < 0 else triangles
-            parts.append(SheetPart((self._site, self._site), surface, numbers[turned]))
-        return parts
+        return self._flat.plane(np.concatenate([self._curves.points[corners], balls.centre]))
 
     def _border(self, found: Triangulation, number: int) -> Ints:
         """The segments (k, 2) of vertices of the complex that border a component."""
@@ -256,8 +192,7 @@ class _EdgeSheets:
     def _surface(self, found: Triangulation, rows: Ints) -> SelfSheetSurface:
         """The surface of the sheet that triangles with given numbers are drawn of."""
         spots = np.einsum("ij,tjk->tik", SPREAD, found.corners[rows]).reshape(-1, 2)
-        feet, inward = self._domain.lift(spots)
-        balls = self._tests.balls(feet, inward)
+        feet, balls = self._footprint.balls(spots)
         good = balls.site == self._site
         curve = self._edge.curve
         t = np.stack([curve.parameter(feet), curve.parameter(balls.foot)], axis=1)[good]

@@ -7,106 +7,30 @@ domain into components; each is in the skeleton or not, as exact queries inside 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
 from decomp.attempts import Way, first_of
-from decomp.complex.domains import Domain
-from decomp.complex.model import SurfaceElement
-from decomp.complex.planar import (
-    PLANE,
-    MergedError,
-    Period,
-    SparseError,
-    Triangulation,
-    crossings,
-    triangulate,
-)
+from decomp.complex.planar import MergedError, SparseError, Triangulation
 from decomp.errors import GeometryError
 from decomp.medial.component_votes import MissingCurveError, kept_components
+from decomp.medial.drawn_sheets import (
+    CrossingError,
+    DrawnCurves,
+    Footprint,
+    SheetPart,
+    UnevenError,
+    facing,
+)
 from decomp.medial.incidence import Incidence
 from decomp.medial.sheet_domains import Drawing, SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
-from decomp.vectors import Array, Bools, Ints, cross, dot, norm
-
-ROUNDS = 12
-FILL = 6
-"""Points per period with which a domain that has too few is filled."""
-COARSE = 0.15
-"""Triangles whose middles are farther from the sheet than this part of their longest side are
-divided before anything else, so that all are on the right side of the solid."""
-
-
-class CrossingError(GeometryError):
-    """Sampled curves cross in the domain: they must be sampled more finely.
-
-    Args:
-        message: what is wrong near `{at}`.
-        segments: (k, 2) pairs of vertices between which a curve must have more samples.
-        sites: names of the sites between which the curves are.
-        at: (3,) where they cross.
-    """
-
-    def __init__(self, message: str, segments: Ints, sites: Iterable[str], at: Array) -> None:
-        super().__init__(message, sites, at=at)
-        self.segments = segments
-
-
-class UnevenError(GeometryError):
-    """A sheet's footprint is too uneven for it to be drawn there."""
-
-
-@dataclass(frozen=True, eq=False)
-class SheetPart:
-    """One sheet as triangles.
-
-    Args:
-        sites: a and b.
-        surface: that it lies on: Vor(a, b), or a plane of symmetry if a is b.
-        triangles: (m, 3) vertices, their normals pointing from a's side to b's.
-    """
-
-    sites: tuple[int, int]
-    surface: SurfaceElement
-    triangles: Ints
-
-
-@dataclass(eq=False)
-class _Draft:
-    """The sheets of a pair as they are drawn in their domain.
-
-    Args:
-        pair: the sites.
-        used: (k,) the vertices that border them or are kinks: the first of the points.
-        points, uv: (n, 3) and (n, 2); beyond the first k are points inside the sheets.
-        segments: (m, 2) indices of points.
-        domain: None for a plane that the sheets are projected to.
-        column: of which site the domain is the footprint.
-    """
-
-    pair: tuple[int, int]
-    used: Ints
-    points: Array
-    uv: Array
-    segments: Ints
-    domain: Domain | None
-    column: int
-
-    @property
-    def period(self) -> Period:
-        """Of the domain."""
-        return PLANE if self.domain is None else self.domain.period
-
-    def add(self, uv: Array, points: Array) -> None:
-        """More points inside."""
-        self.uv = np.concatenate([self.uv, uv])
-        self.points = np.concatenate([self.points, points])
+from decomp.vectors import Array, Bools, Ints
 
 
 class SheetMaker:
@@ -171,7 +95,8 @@ class SheetMaker:
             after = (*after, CrossingError)
 
         def way(what: str, other: Drawing, *errors: type[GeometryError]) -> Way[list[SheetPart]]:
-            return Way(what, lambda: self._drawn(pair, used, points, local, other, surface), errors)
+            curves = self._curves(pair, used, points, local, other)
+            return Way(what, lambda: self._drawn(pair, curves, surface), errors)
 
         def ways() -> Iterator[Way[list[SheetPart]]]:
             yield way("drawn in the footprint", drawing, *after)
@@ -180,144 +105,55 @@ class SheetMaker:
 
         return first_of(ways())
 
+    def _names(self, pair: tuple[int, int]) -> tuple[str, ...]:
+        return tuple(self._incidence.sites[site].name for site in pair)
+
+    def _curves(
+        self, pair: tuple[int, int], used: Ints, points: Array, segments: Ints, drawing: Drawing
+    ) -> DrawnCurves:
+        footprint = None
+        if drawing.domain is not None:
+            site, far = pair[drawing.column], pair[1 - drawing.column]
+            footprint = Footprint(self._tests, drawing.domain, site, far)
+        names = self._names(pair)
+        return DrawnCurves(used, points, drawing.uv, segments, footprint, names, "the footprint")
+
     def _drawn(
-        self,
-        pair: tuple[int, int],
-        used: Ints,
-        points: Array,
-        segments: Ints,
-        drawing: Drawing,
-        surface: SheetSurface,
+        self, pair: tuple[int, int], curves: DrawnCurves, surface: SheetSurface
     ) -> list[SheetPart]:
         """The sheets between their borders as they are drawn."""
-        draft = _Draft(pair, used, points, drawing.uv, segments, drawing.domain, drawing.column)
-        self._check_crossings(draft)
-        found, keep = self._triangulated(draft, surface)
-        return self._parts(draft, surface, found, keep)
-
-    def _check_crossings(self, draft: _Draft) -> None:
-        bad = crossings(draft.uv, draft.segments, draft.period)
-        if len(bad):
-            rows = np.unique(bad)
-            raise CrossingError(
-                "curves cross in the footprint near {at}",
-                draft.used[draft.segments[rows]],
-                self._names(draft.pair),
-                draft.points[draft.segments[rows[0], 0]],
-            )
-
-    def _triangulated(
-        self, draft: _Draft, surface: SheetSurface
-    ) -> tuple[Triangulation, list[int]]:
-        """A triangulation whose triangles follow the sheets roughly, and the sheets' components."""
-        for _ in range(ROUNDS):
-            try:
-                found = triangulate(draft.uv, draft.segments, draft.period)
-            except SparseError as error:
-                self._fill(draft, error)
-                continue
-            keep = self._kept(draft.pair, found, draft, surface)
-            if draft.domain is None or not self._add_where_coarse(draft, found, keep):
-                return found, keep
-        names = self._names(draft.pair)
-        raise UnevenError(
-            f"the sheet between {' and '.join(names)} near {{at}} cannot be triangulated",
-            names,
-            at=draft.points[0],
-        )
-
-    def _names(self, pair: tuple[int, int]) -> list[str]:
-        return [self._incidence.sites[site].name for site in pair]
-
-    def _fill(self, draft: _Draft, error: SparseError) -> None:
-        """Add points to a periodic domain that has too few, where the sheets are if possible."""
-        domain = draft.domain
-        if domain is None:
-            raise error
-        spots = error.spots
-        if not len(spots):
-            low, high = draft.uv.min(axis=0), draft.uv.max(axis=0)
-            count = FILL + len(draft.used) - len(draft.uv)
-            sides = []
-            for k, period in enumerate(draft.period):
-                start, length = float(low[k]), float(high[k] - low[k])
-                sides.append(start + (period or length) * (np.arange(count) + 0.5) / count)
-            spots = np.array(np.meshgrid(*sides)).reshape(2, -1).T
-        feet, inward = domain.lift(spots)
-        on = self._tests.on(draft.pair[draft.column], feet, inward)
-        if not on.any():
-            raise error
-        centres = self._tests.balls(feet[on], inward[on]).centre
-        draft.add(spots[on], centres)
-
-    def _add_where_coarse(self, draft: _Draft, found: Triangulation, keep: list[int]) -> bool:
-        """Add inner points where triangles leave their sheet by much; whether there were any."""
-        domain = draft.domain
-        rows = np.flatnonzero(np.isin(found.component, keep))
-        if domain is None or not len(rows):
-            return False
-        corners = draft.points[found.triangles[rows]]
-        sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
-        feet, inward = domain.lift(found.centroids[rows])
-        balls = self._tests.balls(feet, inward)
-        off = norm(balls.centre - corners.mean(axis=1))
-        coarse = off > COARSE * sides
-        coarse &= balls.site == draft.pair[1 - draft.column]
-        if not coarse.any():
-            return False
-        draft.add(found.centroids[rows][coarse], balls.centre[coarse])
-        return True
-
-    def _parts(
-        self, draft: _Draft, surface: SheetSurface, found: Triangulation, keep: list[int]
-    ) -> list[SheetPart]:
-        inner = len(draft.used)
-        if len(draft.points) > inner:
-            surface = SheetSurface(
-                self._incidence,
-                draft.pair,
-                draft.points,
-                self._incidence.feet(draft.pair, draft.points),
-            )
-        numbers = np.full(len(draft.points), -1, dtype=np.int64)
-        numbers[:inner] = draft.used
-        kept = np.isin(found.component, keep)
-        for k in np.unique(found.triangles[kept]):
-            if k >= inner:
-                numbers[k] = self._add(draft.points[k])
+        curves.check_crossings()
+        found, kept = curves.triangulated(lambda found: self._kept(pair, found, curves, surface))
+        if len(curves.points) > len(curves.vertex):
+            feet = self._incidence.feet(pair, curves.points)
+            surface = SheetSurface(self._incidence, pair, curves.points, feet)
+        numbers = curves.numbered(found.triangles[np.isin(found.component, kept)], self._add)
         parts = []
-        for number in keep:
+        for number in kept:
             triangles = found.triangles[found.component == number]
-            oriented = self._oriented(surface, draft.points, triangles)
-            parts.append(SheetPart(draft.pair, surface, numbers[oriented]))
+            corners = curves.points[triangles].reshape(-1, 3)
+            normals = surface.normal(corners).reshape(-1, 3, 3).sum(axis=1)
+            turned = facing(curves.points, triangles, normals)
+            parts.append(SheetPart(pair, surface, numbers[turned]))
         return parts
 
     def _kept(
         self,
         pair: tuple[int, int],
         found: Triangulation,
-        draft: _Draft,
+        curves: DrawnCurves,
         surface: SheetSurface,
     ) -> list[int]:
         """Numbers of the components that are sheets."""
-        domain, column = draft.domain, draft.column
 
         def ask(rows: Ints, weights: Array) -> Bools:
-            if domain is None:
-                where = np.einsum("ij,ijk->ik", weights, draft.points[found.triangles[rows]])
-                return self._tests.in_skeleton(pair, where, surface)
-            feet, inward = domain.lift(np.einsum("ij,ijk->ik", weights, found.corners[rows]))
-            return self._tests.touches(pair[column], pair[1 - column], feet, inward)
+            if curves.footprint is not None:
+                return curves.footprint.holds(found, rows, weights)
+            where = np.einsum("ij,ijk->ik", weights, curves.points[found.triangles[rows]])
+            return self._tests.in_skeleton(pair, where, surface)
 
-        names = " and ".join(self._incidence.sites[s].name for s in pair)
-        return kept_components(found, draft.points, ask, f"between {names}")
-
-    def _oriented(self, surface: SheetSurface, points: Array, triangles: Ints) -> Ints:
-        corners = points[triangles]
-        normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        wanted = surface.normal(corners.reshape(-1, 3)).reshape(-1, 3, 3).sum(axis=1)
-        agree = float(dot(normals, wanted).sum())
-        return triangles if agree >= 0 else np.ascontiguousarray(triangles[:, ::-1])
+        name = f"between {' and '.join(curves.sites)}"
+        return kept_components(found, curves.points, ask, name)
 
 
 def segments_of(lines: Sequence[Ints]) -> Ints:
