@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from decomp.vectors import Array
+from decomp.tracing.continuing import value_at
 
 HALVINGS = 40
 CLEAR, APART = 4, 5e-4
@@ -45,9 +45,4 @@ def arrival(
     gaps = np.array([gap(float(length)) for length in lengths])
     if not (np.abs(gaps - steps * gaps[0]) <= BENT * np.abs(gaps)).all():
         return None
-    return float(lagrange_weights(gaps, 0.0) @ lengths)
-
-
-def lagrange_weights(known: Array, at: float) -> Array:
-    """The weights (k,) of values known at k different places, for the value at another."""
-    return np.array([np.prod([(at - b) / (a - b) for b in known if b != a]) for a in known])
+    return float(value_at(lengths, gaps, 0.0))

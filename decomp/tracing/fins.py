@@ -13,12 +13,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from decomp.tracing.arriving import lagrange_weights
 from decomp.tracing.contacts import Contacts
+from decomp.tracing.continuing import continued, value_at
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
-from decomp.vectors import Array, norm
+from decomp.vectors import norm
 
 WIDE, NARROW = 0.15, 0.04
 """Gaps, relative to the radius, from the widest to the narrowest at which points are read off."""
@@ -143,18 +143,12 @@ def _at_gap(points: SeamPoints, state: State, pair: tuple[int, int], gap: float)
 
 
 def _end(states: Sequence[State], pair: tuple[int, int]) -> State:
-    """Points of a seam continued to where a gap vanishes."""
+    """Points of a seam continued to where a gap vanishes; both feet are their middle there."""
     one, other = pair
     x = np.array([_gap(s, pair) ** 2 for s in states])
-    weights = lagrange_weights(x, 0.0)
-
-    def at_end(values: Sequence[Array]) -> Array:
-        return np.asarray(np.tensordot(weights, np.array(values), axes=1))
-
-    feet = at_end([s.feet for s in states])
-    feet[[one, other]] = at_end([(s.feet[one] + s.feet[other]) / 2 for s in states])
-    point = at_end([s.point for s in states])
-    return replace(states[-1], point=point, feet=feet, radius=float(norm(point - feet[one])))
+    end = continued(states, x, 0.0)
+    end.feet[[one, other]] = value_at([(s.feet[one] + s.feet[other]) / 2 for s in states], x, 0.0)
+    return replace(end, radius=float(norm(end.point - end.feet[one])), tangent=states[-1].tangent)
 
 
 def _balanced(points: SeamPoints, state: State, pair: tuple[int, int]) -> State:

@@ -7,12 +7,11 @@ distance's root: the end is read off at points before it, and these are moved cl
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from decomp.tracing.arriving import lagrange_weights
+from decomp.tracing.continuing import continued
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
 
@@ -59,14 +58,14 @@ def landing(
         roots = np.array([off(state.point) ** 0.5 for state in states])
         if not _distinct(roots):
             return None
-        end = _read_off(states, roots, 0.0)
+        end = continued(states, roots, 0.0)
         ways = np.array([norm(state.point - end.point) for state in states])
         if not (np.abs(roots / ways * ways[0] / roots[0] - 1) <= BENT).all():
             return None
         if ways.min() <= NEAREST * last.radius:
             return between, end
         targets = float(roots.min()) * CLOSER
-        states = _all(settle(_read_off(states, roots, float(root))) for root in targets)
+        states = _all(settle(continued(states, roots, float(root))) for root in targets)
         between += states[::-1]
     return None
 
@@ -89,17 +88,3 @@ def _all(states: Iterable[State | None]) -> list[State]:
 def _distinct(roots: Array) -> bool:
     """Whether roots are all different and none vanishes."""
     return bool(roots.min() > 0 and np.diff(np.sort(roots)).min() > 1e-3 * roots.min())
-
-
-def _read_off(states: Sequence[State], roots: Array, root: float) -> State:
-    """The seam's point at a root of the distance, from those at others."""
-    weights = lagrange_weights(roots, root)
-
-    def value(values: Sequence[Array]) -> Array:
-        return np.asarray(np.tensordot(weights, np.array(values), axes=1))
-
-    point, feet = value([s.point for s in states]), value([s.feet for s in states])
-    tangent = value([s.tangent for s in states])
-    radius = float(norm(point - feet).mean())
-    tangent = tangent / norm(tangent)
-    return replace(states[0], point=point, feet=feet, radius=radius, tangent=tangent)
