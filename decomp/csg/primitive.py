@@ -50,7 +50,8 @@ class Primitive(Solid):
         return moved
 
     def __repr__(self) -> str:
-        values = [f"{k}={_show(v)}" for k, v in vars(self).items() if v is not None]
+        shown = (str, float, np.ndarray)
+        values = [f"{k}={_show(v)}" for k, v in vars(self).items() if isinstance(v, shown)]
         return f"{type(self).__name__}({', '.join(values)})"
 
 
