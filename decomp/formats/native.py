@@ -170,7 +170,7 @@ def _similarity_in(value: Any, where: str) -> Similarity:
 def _refuse_loose(by: Similarity, fixed: Array, where: str) -> None:
     """Raise InputError if a fixed point is none."""
     size = float(np.abs(fixed).max() + np.abs(by.offset).max())
-    if float(np.abs(by.points(fixed) - fixed).max()) > 1e-9 * (1 + by.scale) * size:
+    if float(np.abs(by.points(fixed) - fixed).max()) > 1e-12 * (1 + by.scale) * size:
         raise InputError(f"{where} must be a point that the transform leaves where it is")
 
 
