@@ -38,6 +38,11 @@ def difference(a: Iterable[float], b: Iterable[float]) -> NDArray[np.float64]:
     return rounded(x - y for x, y in zip(exact(a), exact(b), strict=True))
 
 
+def seen_about(point: Iterable[float], origin: Iterable[float]) -> NDArray[np.float64]:
+    """A point that was written as decimals, from an origin that was computed; rounded once."""
+    return rounded(x - y for x, y in zip(exact(point), binary(origin), strict=True))
+
+
 def careful_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """a - b, exactly rounded where a and b are so large that the plain difference loses digits."""
     plain = a - b

@@ -15,7 +15,7 @@ from decomp import carriers
 from decomp.carriers import Carrier
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
-from decomp.exact import difference
+from decomp.exact import seen_about
 from decomp.magnitude import check_length
 from decomp.vectors import Array, direction, frozen, norm, number, triple
 
@@ -46,7 +46,7 @@ class Primitive(Solid):
         """The same primitive in coordinates about `origin` (3,), each rounded once."""
         moved = copy(self)
         for field in self.places:
-            object.__setattr__(moved, field, frozen(difference(getattr(self, field), origin)))
+            object.__setattr__(moved, field, frozen(seen_about(getattr(self, field), origin)))
         return moved
 
     def __repr__(self) -> str:

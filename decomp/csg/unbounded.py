@@ -18,7 +18,7 @@ from decomp.csg.primitive import (
     set_fields,
 )
 from decomp.errors import InputError
-from decomp.exact import careful_difference, difference
+from decomp.exact import careful_difference, seen_about
 from decomp.vectors import Array, direction, number, positive, vector
 
 
@@ -164,7 +164,8 @@ class InfiniteCone(Primitive):
         if self.ends is None:
             return super().about(origin)
         a, ra, b, rb = self.ends
-        return InfiniteCone.through(difference(a, origin), ra, difference(b, origin), rb, self.name)
+        near, other = seen_about(a, origin), seen_about(b, origin)
+        return InfiniteCone.through(near, ra, other, rb, self.name)
 
     def half_spaces(self) -> HalfSpaces:
         yield "side", carriers.Cone(self.apex, self.axis, radians(self.half_angle))
