@@ -12,6 +12,9 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+CANCELLED = 16.0
+"""Numbers that are so many times larger than their difference lose digits in it."""
+
 Exact = tuple[Fraction, ...]
 
 
@@ -33,3 +36,15 @@ def rounded(values: Iterable[Fraction]) -> NDArray[np.float64]:
 def difference(a: Iterable[float], b: Iterable[float]) -> NDArray[np.float64]:
     """The difference of two vectors that were written as decimals, rounded once."""
     return rounded(x - y for x, y in zip(exact(a), exact(b), strict=True))
+
+
+def seen_about(point: Iterable[float], origin: Iterable[float]) -> NDArray[np.float64]:
+    """A point that was written as decimals, from an origin that was computed; rounded once."""
+    return rounded(x - y for x, y in zip(exact(point), binary(origin), strict=True))
+
+
+def careful_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """a - b, exactly rounded where a and b are so large that the plain difference loses digits."""
+    plain = a - b
+    lost = (np.abs(a) + np.abs(b)) > CANCELLED * np.abs(plain)
+    return np.where(lost, difference(a, b), plain) if lost.any() else plain

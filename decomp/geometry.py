@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -136,7 +136,7 @@ class Geometry:
 
     def frame(self) -> AbstractContextManager[None]:
         """Inside, messages about `local` tell places in the model's coordinates."""
-        return seen_from(self.offset, self.diagonal)
+        return nullcontext() if self.local is self else seen_from(self.offset, self.diagonal)
 
     def _local(self, points: ArrayLike) -> ArrayLike:
         if self.local is self:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from math import ceil, log10
+from math import ceil, floor, log10
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ MOST_DIGITS = 17
 FAR = 8.0
 """What is so many sizes away takes more digits."""
 
-_frame: ContextVar[tuple[NDArray[np.float64], int] | None] = ContextVar("frame", default=None)
+_frame: ContextVar[tuple[NDArray[np.float64], int, int] | None] = ContextVar("frame", default=None)
 
 
 @contextmanager
@@ -37,7 +37,7 @@ def seen_from(offset: NDArray[np.float64], size: float) -> Iterator[None]:
         yield
         return
     digits = digits_of(float(abs(offset).max()), size)
-    token = _frame.set((offset, digits))
+    token = _frame.set((offset, digits, DIGITS - floor(log10(size))))
     try:
         yield
     finally:
@@ -61,8 +61,8 @@ def place(point: NDArray[np.float64]) -> str:
     frame = _frame.get()
     if frame is None:
         return triple(point)
-    offset, digits = frame
-    return triple(point + offset, digits)
+    offset, digits, decimals = frame
+    return triple((point + offset).round(decimals), digits)
 
 
 def in_users(point: NDArray[np.float64]) -> tuple[float, ...]:

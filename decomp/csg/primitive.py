@@ -15,7 +15,7 @@ from decomp import carriers
 from decomp.carriers import Carrier
 from decomp.csg.solid import Solid, checked_name
 from decomp.errors import InputError
-from decomp.exact import difference
+from decomp.exact import seen_about
 from decomp.magnitude import check_length
 from decomp.places import triple
 from decomp.vectors import Array, direction, frozen, norm, number
@@ -47,11 +47,12 @@ class Primitive(Solid):
         """The same primitive in coordinates about `origin` (3,), each rounded once."""
         moved = copy(self)
         for field in self.places:
-            object.__setattr__(moved, field, frozen(difference(getattr(self, field), origin)))
+            object.__setattr__(moved, field, frozen(seen_about(getattr(self, field), origin)))
         return moved
 
     def __repr__(self) -> str:
-        values = [f"{k}={_show(v)}" for k, v in vars(self).items() if v is not None]
+        shown = (str, float, np.ndarray)
+        values = [f"{k}={_show(v)}" for k, v in vars(self).items() if isinstance(v, shown)]
         return f"{type(self).__name__}({', '.join(values)})"
 
 

@@ -24,13 +24,10 @@ from decomp.csg.unbounded import HalfSpace as HalfSpace
 from decomp.csg.unbounded import InfiniteCone as InfiniteCone
 from decomp.csg.unbounded import InfiniteCylinder as InfiniteCylinder
 from decomp.errors import InputError
-from decomp.exact import difference
+from decomp.exact import careful_difference
 from decomp.magnitude import check_length
 from decomp.places import triple
 from decomp.vectors import Array, direction, frozen, positive, vector
-
-CANCELLED = 16.0
-"""Corners that are so many times larger than what is between them lose digits in its size."""
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -81,7 +78,7 @@ class Block(Primitive):
                 f"block between {triple(first)} and {triple(last)}: the second corner must be "
                 f"above the first along each axis, but is not along {', '.join(wrong)}"
             )
-        return cls(first, _extent(first, last), name)
+        return cls(first, careful_difference(last, first), name)
 
     def half_spaces(self) -> HalfSpaces:
         for k, axis in enumerate("xyz"):
@@ -91,13 +88,6 @@ class Block(Primitive):
 
     def bounds(self) -> Array:
         return np.array([self.corner, self.corner + self.size])
-
-
-def _extent(low: Array, high: Array) -> Array:
-    """The size of a block between corners; far from the origin only exact differences tell it."""
-    plain = high - low
-    far = (np.abs(low) + np.abs(high)) > CANCELLED * plain
-    return np.where(far, difference(high, low), plain) if far.any() else plain
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import degrees, radians
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from decomp import carriers
@@ -17,6 +18,7 @@ from decomp.csg.primitive import (
     set_fields,
 )
 from decomp.errors import InputError
+from decomp.exact import careful_difference, seen_about
 from decomp.vectors import Array, direction, number, positive, vector
 
 
@@ -108,6 +110,8 @@ class InfiniteCone(Primitive):
     apex: Array
     axis: Array
     half_angle: float
+    ends: tuple[Array, float, Array, float] | None
+    """What it was put `through`, which tells its apex more exactly where coordinates are large."""
 
     def __init__(
         self, apex: ArrayLike, axis: ArrayLike, half_angle: float, name: str | None = None
@@ -119,6 +123,7 @@ class InfiniteCone(Primitive):
             axis=direction(axis, "cone axis"),
             half_angle=number(half_angle, "cone half-angle"),
         )
+        object.__setattr__(self, "ends", None)
         if not 0 < self.half_angle < 90:
             raise InputError(
                 f"cone half-angle must lie between 0 and 90 degrees, got {self.half_angle:g}"
@@ -148,8 +153,19 @@ class InfiniteCone(Primitive):
         ra, rb = radius_at_end(radius, "cone radius"), radius_at_end(radius2, "cone radius")
         direction(b - a, "cone axis")
         refuse_equal_radii(ra, rb)
-        cone = cone_through(a, ra, b, rb)
-        return cls(cone.apex, cone.axis, degrees(cone.angle), name)
+        if ra > rb:
+            a, ra, b, rb = b, rb, a, ra
+        cone = cone_through(np.zeros(3), ra, careful_difference(b, a), rb)
+        result = cls(a + cone.apex, cone.axis, degrees(cone.angle), name)
+        object.__setattr__(result, "ends", (a, ra, b, rb))
+        return result
+
+    def about(self, origin: Array) -> InfiniteCone:
+        if self.ends is None:
+            return super().about(origin)
+        a, ra, b, rb = self.ends
+        near, other = seen_about(a, origin), seen_about(b, origin)
+        return InfiniteCone.through(near, ra, other, rb, self.name)
 
     def half_spaces(self) -> HalfSpaces:
         yield "side", carriers.Cone(self.apex, self.axis, radians(self.half_angle))

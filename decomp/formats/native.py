@@ -27,12 +27,12 @@ from decomp.csg.solid import (
 )
 from decomp.errors import InputError, ParseError
 from decomp.formats.json_items import Item, a_list, a_vector, a_whole_number, shown
-from decomp.formats.native_schema import KNOWN, NODES, OPEN, PRIMITIVES, VERSION
+from decomp.formats.native_schema import FIXED, KNOWN, NODES, OPEN, PRIMITIVES, VERSION
 from decomp.formats.native_writing import dumps
 from decomp.formats.source import Source
 from decomp.magnitude import check_length
 from decomp.similarity import Similarity
-from decomp.vectors import frozen
+from decomp.vectors import Array, frozen
 
 __all__ = ["dumps", "read"]
 
@@ -147,7 +147,7 @@ def _primitive(item: Item, cls: type[Primitive], fields: Mapping[str, str]) -> P
 
 def _similarity_in(value: Any, where: str) -> Similarity:
     item = Item(value, where)
-    item.only("rotation", "scale", "offset", *OPEN)
+    item.only("rotation", "scale", "offset", *OPEN, FIXED)
     place = item.place("rotation")
     rows = [a_vector(row, place) for row in item.items("rotation")]
     rotation = frozen(rows) if len(rows) == 3 else frozen(np.zeros((3, 3)))
@@ -160,7 +160,18 @@ def _similarity_in(value: Any, where: str) -> Similarity:
     doubt, shift = (item.number(key) if key in item.value else 0.0 for key in OPEN)
     if min(doubt, shift) < 0:
         raise InputError(f"{where}: doubt and shift must not be negative, got {doubt:g}, {shift:g}")
-    return Similarity(rotation, scale, item.vector("offset"), doubt, shift)
+    fixed = item.vector(FIXED) if FIXED in item.value else None
+    result = Similarity(rotation, scale, item.vector("offset"), doubt, shift, fixed)
+    if fixed is not None:
+        _refuse_loose(result, fixed, item.place(FIXED))
+    return result
+
+
+def _refuse_loose(by: Similarity, fixed: Array, where: str) -> None:
+    """Raise InputError if a fixed point is none."""
+    size = float(np.abs(fixed).max() + np.abs(by.offset).max())
+    if float(np.abs(by.points(fixed) - fixed).max()) > 1e-12 * (1 + by.scale) * size:
+        raise InputError(f"{where} must be a point that the transform leaves where it is")
 
 
 def _earlier(value: Any, nodes: list[Solid], where: str) -> Solid:

@@ -40,4 +40,6 @@ NODES: dict[str, tuple[str, ...]] = {
 }
 OPEN = ("doubt", "shift")
 """Keys of a similarity that stand there if it is known to few digits, see `Similarity`."""
+FIXED = "fixed"
+"""Key of a similarity that stands there if it has a fixed point, see `Similarity`."""
 KNOWN = (*PRIMITIVES, *NODES)

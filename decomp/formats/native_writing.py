@@ -22,7 +22,7 @@ from decomp.csg.solid import (
     walk,
 )
 from decomp.errors import InputError
-from decomp.formats.native_schema import OPEN, PRIMITIVES, TYPE_OF, VERSION
+from decomp.formats.native_schema import FIXED, OPEN, PRIMITIVES, TYPE_OF, VERSION
 from decomp.similarity import Similarity
 
 
@@ -100,4 +100,6 @@ def _similarity_out(by: Similarity) -> dict[str, Any]:
         "offset": by.offset.tolist(),
     }
     written.update({key: float(getattr(by, key)) for key in OPEN if getattr(by, key)})
+    if by.fixed is not None and by.fixed.any():
+        written[FIXED] = by.fixed.tolist()
     return written
