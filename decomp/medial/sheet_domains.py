@@ -13,6 +13,7 @@ from decomp.complex.domains import Domain, domain_of
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
+from decomp.medial.about_centre import about_centre, lengths_along
 from decomp.medial.incidence import Incidence
 from decomp.medial.polar import around_locus
 from decomp.medial.sheet_surface import SheetSurface
@@ -20,15 +21,13 @@ from decomp.medial.sheet_tests import SheetTests
 from decomp.medial.unrolled import unrolled
 from decomp.sites.site import SiteKind
 from decomp.tracing.loci import locus_gap
-from decomp.vectors import Array, cross, dot, norm
+from decomp.vectors import Array, cross, norm
 
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 FLAT = 1e-10
 MERGED = 1e-9
 """Points of a footprint nearer to each other than this part of the size have merged."""
 AT_LOCUS = 1e-7
-ALONG = 2049
-"""Samples of an edge between which lengths along it are read off."""
 WAYS = 2000
 """Directions from a sphere's centre among which a pole is looked for."""
 
@@ -69,6 +68,9 @@ class SheetDomains:
             return Drawing(flat, None, 0)
         column = self._better(pair, points)
         own, other = pair[column], pair[1 - column]
+        around = self._about_centre(own, points, feet[:, column])
+        if around is not None:
+            return Drawing(around, None, column)
         domain = self._domain(own, points, feet[:, column], surface)
         domain = unrolled(
             domain,
@@ -104,6 +106,15 @@ class SheetDomains:
                 return Drawing(uv, None, k)
         return None
 
+    def _about_centre(self, site: int, points: Array, feet: Array) -> Array | None:
+        """A drawing about the centre of a ball on whose face an edge lies, None without one."""
+        it = self._incidence.sites[site]
+        if it.kind is not SiteKind.EDGE:
+            return None
+        edge = self._boundary.edges[it.index]
+        uv = about_centre(self._boundary, edge, points, feet, AT_LOCUS * self._size)
+        return None if uv is None or self._merged(uv) else uv
+
     def _merged(self, uv: Array) -> bool:
         return bool(cKDTree(uv).query_pairs(MERGED * self._size))
 
@@ -122,15 +133,8 @@ class SheetDomains:
         it = self._incidence.sites[site]
         if it.kind is not SiteKind.EDGE or self._boundary.edges[it.index].closed:
             return None
-        edge = self._boundary.edges[it.index]
-        samples = edge.curve.point(edge.curve.wrapped(np.linspace(edge.start, edge.end, ALONG)))
-        lengths = np.append(0.0, np.cumsum(norm(np.diff(samples, axis=0))))
-        nearest = cKDTree(samples).query(feet)[1]
-        before = np.clip(nearest, 1, ALONG - 2)
-        way = samples[before + 1] - samples[before - 1]
-        size = norm(way)
-        part = dot(feet - samples[before], way) / size
-        return np.stack([lengths[before] + part, norm(points - feet)], axis=1)
+        along, _ = lengths_along(self._boundary.edges[it.index], feet)
+        return np.stack([along, norm(points - feet)], axis=1)
 
     def _flat(self, pair: tuple[int, int], points: Array) -> Array | None:
         """Plane coordinates of points that all lie in a plane."""

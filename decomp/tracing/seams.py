@@ -113,6 +113,11 @@ class SeamTracer:
                     runs.append(stretch.run(count))
                     return Traced(tuple(runs), last, SeamEnd.JUNCTION, intruder, found.foot[0])
             elif why == JOINED:
+                # the arc about a locus joins long before a seam that comes down in a parabola ends
+                landed = self._stops.landing(stretch, count) if joined is None else None
+                if landed is not None:
+                    runs.append(stretch.run(landed[0]))
+                    return Traced(tuple(runs), landed[1], SeamEnd.FIN, -1, nothing)
                 kept, at = joined or (count, last)
                 runs.append(stretch.run(kept))
                 return Traced(tuple(runs), at, SeamEnd.SPLIT, -1, nothing)
