@@ -41,6 +41,9 @@ FILL = 6
 COARSE = 0.15
 """Triangles whose middles are farther from the sheet than this part of their longest side are
 divided before anything else, so that all are on the right side of the solid."""
+STEEP = 0.05
+"""The same, measured across the sheet: where it is steep over its footprint, as between a plane
+and a cylinder that it almost touches, what is measured along the normal is many times as much."""
 
 
 class CrossingError(GeometryError):
@@ -246,8 +249,10 @@ class SheetMaker:
         sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
         feet, inward = domain.lift(found.centroids[rows])
         balls = self._tests.balls(feet, inward)
-        off = norm(balls.centre - corners.mean(axis=1))
-        coarse = off > COARSE * sides
+        off = balls.centre - corners.mean(axis=1)
+        between = balls.foot - feet
+        across = np.abs(dot(off, between)) > STEEP * sides * norm(between)
+        coarse = (norm(off) > COARSE * sides) & (across | (norm(between) == 0))
         coarse &= balls.site == draft.pair[1 - draft.column]
         if not coarse.any():
             return False
