@@ -29,6 +29,9 @@ FILL = 6
 COARSE = 0.15
 """Triangles whose middles are farther from the sheet than this part of their longest side are
 divided before anything else, so that all are on the right side of the solid."""
+STEEP = 0.05
+"""The same, measured across the sheet: where it is steep over its footprint, as between a plane
+and a cylinder that it almost touches, what is measured along the normal is many times as much."""
 
 
 class CrossingError(GeometryError):
@@ -218,9 +221,12 @@ class DrawnCurves:
             return False
         corners = self.points[found.triangles[rows]]
         sides = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
-        _, balls = footprint.balls(found.centroids[rows])
-        off = norm(balls.centre - corners.mean(axis=1))
-        coarse = (off > COARSE * sides) & (balls.site == footprint.far)
+        feet, balls = footprint.balls(found.centroids[rows])
+        off = balls.centre - corners.mean(axis=1)
+        between = balls.foot - feet
+        across = np.abs(dot(off, between)) > STEEP * sides * norm(between)
+        coarse = (norm(off) > COARSE * sides) & (across | (norm(between) == 0))
+        coarse &= balls.site == footprint.far
         if coarse.any():
             self._add(found.centroids[rows][coarse], balls.centre[coarse])
         return bool(coarse.any())

@@ -28,7 +28,7 @@ from decomp.tracing.seam_points import SLACK, SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, Ints, frame, norm
 
-AHEAD = (1e-2, 1e-3, 1e-4, 1e-5, 3e-2, 1e-1)
+AHEAD = (1e-2, 1e-3, 1e-4, 1e-5, 3e-2, 1e-1, 1e-6, 1e-7)
 """How far ahead it is looked, as parts of the radius, in this order."""
 APART = 1e-12
 """Heights that differ by less than this part of the size are equal."""

@@ -18,7 +18,7 @@ from decomp.curves.line import Line
 from decomp.kernels.carriers import carrier_table
 from decomp.sites.site import Site
 from decomp.tracing.balance import fields_at
-from decomp.tracing.supports import CURVE, SupportTable, support_table
+from decomp.tracing.supports import SupportTable, curve_support, support_table
 from decomp.vectors import Array, Ints, dot
 
 
@@ -71,11 +71,12 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
     if isinstance(curve, Circle):
         return curve.point(curve.parameter(points))
     pair = carrier_table([boundary.carriers[k] for k in edge.carriers])
+    kind, row = curve_support(curve)
     table = SupportTable(
-        np.array([CURVE]),
+        np.array([kind]),
         np.ones(1),
         np.array([[0, 1]]),
-        np.zeros((1, 10)),
+        row[None],
         np.array([[-np.inf, np.inf]]),
         pair,
         1,

@@ -15,33 +15,28 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
+from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
+from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
 from decomp.kernels.carriers import (
-    CONE,
-    CYLINDER,
-    PLANE,
-    SPHERE,
     CarrierTable,
     Triple,
     carrier_table,
     foot,
     normal,
-    radial,
     signed_distance,
 )
 from decomp.kernels.records import Record
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner
+from decomp.tracing.curve_feet import curve_foot
+from decomp.tracing.ellipse_feet import ellipse_foot, ellipse_tangent
 from decomp.vectors import Array, Ints
 
-FACE, LINE, CIRCLE, CURVE, POINT, NOTHING = range(6)
-LEAST_BEND, LONGEST_STEP = 1e-5, 0.25
-"""Close to a centre of curvature Newton's steps along an edge, which grow without bound there, are
-divided by no less than this, and are no longer than this part of the distance."""
-TOUCHING = 1e-7
-"""Sine of the angle between carriers below which rounding decides where they meet."""
-FOOT_STEPS = 60
+FACE, LINE, CIRCLE, CURVE, POINT, NOTHING, ELLIPSE = range(7)
+SEARCHED = (CURVE, ELLIPSE)
+"""Supports on which a foot is searched from a known one."""
 
 Field = tuple[float, float, float, float, float, float, float]
 
@@ -54,7 +49,8 @@ class SupportTable(Record):
         kinds: (n,), NOTHING for sites of other regions.
         signs: (n,), by which a face's signed distance is positive inside the region.
         flanks: carriers (n, 2) of an edge; a face's own carrier first.
-        data: (n, 10): line: origin, direction; circle: centre, x, y, radius; point: itself.
+        data: (n, 10): line: origin, direction; circle: centre, x, y, radius; ellipse: centre and
+            both semi-axes; point: itself.
         ends: (n, 2), where a straight edge begins and ends along its line; else infinite.
         carriers: of the model.
         first_edge: row of the region's first edge.
@@ -95,17 +91,10 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
     ends = np.tile([-np.inf, np.inf], (count, 1))
 
     def put_edge(row: int, edge: Edge) -> None:
-        curve = edge.curve
         flanks[row] = edge.carriers
-        if isinstance(curve, Line):
-            kinds[row] = LINE
-            data[row, :6] = *curve.origin, *curve.direction
+        kinds[row], data[row] = curve_support(edge.curve)
+        if isinstance(edge.curve, Line):
             ends[row] = edge.start, edge.end
-        elif isinstance(curve, Circle):
-            kinds[row] = CIRCLE
-            data[row] = *curve.centre, *curve.x, *curve.y, curve.radius
-        else:
-            kinds[row] = CURVE
 
     for row, site in enumerate(sites):
         if site.kind is SiteKind.FACE and site.index < len(boundary.faces):
@@ -129,6 +118,21 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
         len(sites),
         len(sites) + len(edges),
     )
+
+
+def curve_support(curve: Curve) -> tuple[int, Array]:
+    """The kind of an edge's support and its row (10,) of data."""
+    row = np.zeros(10)
+    if isinstance(curve, Line):
+        row[:6] = *curve.origin, *curve.direction
+        return LINE, row
+    if isinstance(curve, Circle):
+        row[:] = *curve.centre, *curve.x, *curve.y, curve.radius
+        return CIRCLE, row
+    if isinstance(curve, Ellipse):
+        row[:9] = *curve.centre, *curve.a * curve.x, *curve.b * curve.y
+        return ELLIPSE, row
+    return CURVE, row
 
 
 @inner
@@ -159,6 +163,8 @@ def support(
         qx = data[k, 0] + u * data[k, 3] + v * data[k, 6]
         qy = data[k, 1] + u * data[k, 4] + v * data[k, 7]
         qz = data[k, 2] + u * data[k, 5] + v * data[k, 8]
+    elif kind == ELLIPSE:
+        qx, qy, qz = ellipse_foot(data, k, x, y, z, qx, qy, qz)
     elif kind == CURVE:
         a, b = table.flanks[k, 0], table.flanks[k, 1]
         qx, qy, qz = curve_foot(table.carriers, a, b, x, y, z, qx, qy, qz)
@@ -202,6 +208,8 @@ def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> 
             u * data[k, 7] - v * data[k, 4],
             u * data[k, 8] - v * data[k, 5],
         )
+    if kind == ELLIPSE:
+        return ellipse_tangent(data, k, qx, qy, qz)
     nx, ny, nz = normal(table.carriers, table.flanks[k, 0], qx, qy, qz)
     mx, my, mz = normal(table.carriers, table.flanks[k, 1], qx, qy, qz)
     tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
@@ -209,86 +217,3 @@ def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> 
     if length == 0.0:
         return 0.0, 0.0, 0.0
     return tx / length, ty / length, tz / length
-
-
-@inner
-def normal_curvature(
-    table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
-) -> float:
-    """Curvature of carrier c at a point on it along a unit tangent, see `Carrier`."""
-    packed, code = table.packed, table.codes[c]
-    if code == PLANE:
-        return 0.0
-    if code == SPHERE:
-        return float(1.0 / packed[c, 6])
-    ax, ay, az = packed[c, 3], packed[c, 4], packed[c, 5]
-    ux, uy, uz = radial(packed, c, x, y, z)
-    wx, wy, wz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
-    around = wx * dx + wy * dy + wz * dz
-    if code == CYLINDER:
-        return float(around * around / packed[c, 6])
-    rho = (x - packed[c, 0]) * ux + (y - packed[c, 1]) * uy + (z - packed[c, 2]) * uz
-    if code == CONE:
-        return float(around * around * packed[c, 7] / rho)
-    nx, ny, nz = normal(table, c, x, y, z)
-    sx, sy, sz = wy * nz - wz * ny, wz * nx - wx * nz, wx * ny - wy * nx
-    across = sx * dx + sy * dy + sz * dz
-    parallel = (nx * ux + ny * uy + nz * uz) / rho
-    return float(around * around * parallel + across * across / packed[c, 7])
-
-
-@inner
-def curve_foot(
-    table: CarrierTable,
-    a: int,
-    b: int,
-    x: float,
-    y: float,
-    z: float,
-    qx: float,
-    qy: float,
-    qz: float,
-) -> Triple:
-    """The foot of a point on the curve in which carriers a and b meet, near a known one.
-
-    Newton's method on a(q) = 0, b(q) = 0, (p - q).t(q) = 0; the derivative of the last by q has
-    the curve's bending k in it: -(1 - (p - q).k) t.
-    """
-    before = 1e300
-    for _ in range(FOOT_STEPS):
-        nx, ny, nz = normal(table, a, qx, qy, qz)
-        mx, my, mz = normal(table, b, qx, qy, qz)
-        tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
-        sine = sqrt(tx * tx + ty * ty + tz * tz)
-        cosine = nx * mx + ny * my + nz * mz
-        da = -signed_distance(table, a, qx, qy, qz)
-        db = -signed_distance(table, b, qx, qy, qz)
-        if sine <= TOUCHING:
-            # nothing tells the curve's tangent: only back onto the carriers
-            sign = -1.0 if cosine < 0.0 else 1.0
-            back = 0.5 * (da + sign * db)
-            sx, sy, sz = back * nx, back * ny, back * nz
-        else:
-            tx, ty, tz = tx / sine, ty / sine, tz / sine
-            vx, vy, vz = x - qx, y - qy, z - qz
-            ha = -normal_curvature(table, a, qx, qy, qz, tx, ty, tz)
-            hb = -normal_curvature(table, b, qx, qy, qz, tx, ty, tz)
-            square = sine * sine
-            ka, kb = (ha - cosine * hb) / square, (hb - cosine * ha) / square
-            bent = ka * (vx * nx + vy * ny + vz * nz) + kb * (vx * mx + vy * my + vz * mz)
-            along = (vx * tx + vy * ty + vz * tz) / max(1.0 - bent, LEAST_BEND)
-            limit = LONGEST_STEP * sqrt(vx * vx + vy * vy + vz * vz)
-            along = min(max(along, -limit), limit)
-            # the step across the curve solves n.s = da, m.s = db in the plane of n and m
-            ca, cb = (da - cosine * db) / square, (db - cosine * da) / square
-            sx = ca * nx + cb * mx + along * tx
-            sy = ca * ny + cb * my + along * ty
-            sz = ca * nz + cb * mz + along * tz
-        qx, qy, qz = qx + sx, qy + sy, qz + sz
-        length = sqrt(sx * sx + sy * sy + sz * sz)
-        if length <= 1e-16 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
-            break
-        if length >= before and length <= 1e-13 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
-            break
-        before = length
-    return qx, qy, qz

@@ -54,6 +54,13 @@ def angle_in_wide_air() -> Solid:
     return Sphere((0, 0, 0), 150) - angle
 
 
+def flattened_rod() -> dict[str, Solid]:
+    """Planes almost touch the rod: ellipses with sharp tips, sheets steep over their footprint."""
+    rod = Cylinder((0, 0, 0), (0, 0, 40), 3, name="rod")
+    rod = rod & HalfSpace((0, 2.4, 40), (0, 15, 1)) & HalfSpace((0, -2.4, 40), (0, -15, 1))
+    return {"rod": rod, "air": Block((-400, -400, -400), (800, 800, 800), name="far") - rod}
+
+
 def sunk_plate() -> Solid:
     """The hole is as deep as its radius, and its bottom as thick: contacts tie in a point."""
     return Block((0, 0, 0), (60, 48, 8)) - Cylinder((40, 12, 4), (40, 12, 9), 4)
@@ -151,6 +158,13 @@ def _chisel_volume() -> float:
     return flat + 4 * (11.2 * area - 6 * (moment(1.5) - moment(0.2)))
 
 
+def _flattened_volume() -> float:
+    def rest(z: float) -> float:
+        return 4 * _half(min(3.0, 2.4 + (40 - z) / 15), 3)
+
+    return 31 * pi * 9 + float(quad(rest, 31, 40, epsabs=1e-12, epsrel=1e-13)[0])
+
+
 def _keyed_volume() -> float:
     def depth(y: float) -> float:
         return (sqrt(169 - y * y) - 10.5) * (4 + 2 * sqrt(9 - y * y))
@@ -173,6 +187,9 @@ COINCIDENCES: dict[str, Coincidence] = {
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
     "notched bar in air": Coincidence(notched_bar_in_air, (180.0**3 - 1.8,), (2,)),
     "angle in wide air": Coincidence(angle_in_wide_air, (4.5e6 * pi - 32,), (2,)),
+    "flattened rod": Coincidence(
+        flattened_rod, (_flattened_volume(), 800.0**3 - _flattened_volume()), (1, 2)
+    ),
     "sunk plate": Coincidence(sunk_plate, (60 * 48 * 8 - 64 * pi,), (1,)),
     "chisel": Coincidence(chisel, (_chisel_volume(),), (1,)),
     "rod with eye": Coincidence(rod_with_eye, (600 * pi + 4 * (552 - 100 * asin(0.6)),), (0,)),
