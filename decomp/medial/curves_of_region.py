@@ -29,6 +29,9 @@ from decomp.vectors import Array, Ints, norm
 
 ALONG = 16
 """Points by which a piece of trim or reflexive locus is first known."""
+ASKED = (0.5, 0.37)
+"""At which parts of its length a seam is asked what it touches: where all is symmetric it can
+touch a trim in its middle, and only there."""
 BESIDE = 1e-5
 AT_LOCUS = 1e-4
 """A trim ends on a locus if it is that part of its radius from it beside the end."""
@@ -74,12 +77,17 @@ def _seam_piece(
     curve = SeamCurve(incidence, sites, points, traced)
     while len(points) < 4:
         points = _denser(curve, points)
-    middle = points[middle_row(points)]
-    at = curve.feet_at(middle[None])[0]
-    contacts = []
-    for site, foot in zip(sites, at, strict=True):
-        contacts.append(incidence.touched(site, foot, (middle - foot) / float(norm(middle - foot))))
-    return CurvePiece(LineKind.SEAM, tuple(contacts), curve, points, at)
+    asked = points[[middle_row(points, share) for share in ASKED]]
+    found = []
+    for point, at in zip(asked, curve.feet_at(asked), strict=True):
+        ways = (point - at) / norm(point - at)[:, None]
+        sharing = tuple(
+            incidence.touched(site, foot, way)
+            for site, foot, way in zip(sites, at, ways, strict=True)
+        )
+        found.append((sharing, at))
+    contacts, at = min(found, key=lambda one: sum(len(contact) for contact in one[0]))
+    return CurvePiece(LineKind.SEAM, contacts, curve, points, at)
 
 
 def _denser(curve: SeamCurve, points: Array) -> Array:

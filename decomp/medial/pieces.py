@@ -64,13 +64,13 @@ class CurvePiece:
         return float(norm(np.diff(self.points, axis=0)).sum())
 
 
-def middle_row(points: Array) -> int:
-    """Which inner one of points (n, 3) along a curve is next to half its length.
+def middle_row(points: Array, share: float = 0.5) -> int:
+    """Which inner one of points (n, 3) along a curve is next to half its length, or another share.
 
     They can crowd at an end, where what a ball touches is not told well.
     """
     along = np.cumsum(norm(np.diff(points, axis=0)))
-    return 1 + int(np.argmin(np.abs(along[:-1] - along[-1] / 2)))
+    return 1 + int(np.argmin(np.abs(along[:-1] - share * along[-1])))
 
 
 @dataclass(frozen=True, eq=False)

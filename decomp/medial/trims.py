@@ -18,7 +18,14 @@ from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.locus_touches import touches
 from decomp.medial.normal_balls import solve_radius, try_radius
 from decomp.medial.normal_curves import NormalCurve
-from decomp.medial.trim_samples import Contact, TrimSample, one_of, ties, without_ties
+from decomp.medial.trim_samples import (
+    Contact,
+    TrimSample,
+    one_of,
+    ties,
+    without_passing_ties,
+    without_ties,
+)
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tracing import loci
@@ -82,7 +89,9 @@ class TrimScanner:
         cuts = self._changes(curves, samples)
         result = []
         for c, known, every in zip(curves, samples, cuts, strict=True):
-            cut = self._without_touches(c, known, every)
+            own, longest = tuple(sorted(c.sites)), SHORT * (c.end - c.start)
+            clear = without_passing_ties(known, every, own, c.closed, longest)
+            cut = self._without_touches(c, known, clear)
             bounds = [self._change(c, low, high) for low, high in cut]
             whole = self._between(c, known, cut, bounds)
             result.append([part for piece in whole for part in self._turning(piece, known)])

@@ -303,6 +303,9 @@ def follow(
                 base = last
                 if low > 0.0 and advance(table, which, track, base, last + 1, low, size, True):
                     last += 1
+                    # where it began may be on the last bit before a change, too
+                    if closable and last + leave > 3 and returns(track, last, home):
+                        return last + 1, CLOSED, -1
                 if failed:
                     # long steps can lead across an axis, where feet jump
                     if not low > LEAST_PROGRESS * size:

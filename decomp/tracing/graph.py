@@ -36,6 +36,8 @@ BESIDE = 1e-2
 """Seams that pass a point nearer than this part of its radius may be the one that was meant."""
 APART = 1e-3
 """Feet nearer than this part of the radius are one."""
+MERGED = 1e-6
+"""Where exact feet are nearer than this part of the radius two sites share a contact: a trim."""
 LONGEST = (0.05, 5e-3, 1e-3)
 """The longest steps along seams, as parts of the size: a step can lead past a short stretch in
 which a seam has other sites. What then fails is tried again with shorter ones; the shortest are for
@@ -198,7 +200,7 @@ class _Grower:
         for k in which:
             point, feet = seeds.points[k], seeds.feet[k]
             state = self._points.settled(point, feet, along)
-            if state is not None:
+            if state is not None and _apart(state.point, state.feet, MERGED):
                 states.append(state)
             elif _apart(point, feet):
                 self._lost.append((point, feet))
@@ -291,7 +293,8 @@ class _Grower:
         return self._count
 
 
-def _apart(point: Array, feet: Array) -> bool:
-    """Whether the three feet (3, 3) of a seed are pairwise different."""
-    gaps = norm(feet - np.roll(feet, 1, axis=0))
-    return bool((gaps > APART * float(norm(point - feet[0]))).all())
+def _apart(point: Array, feet: Array, within: float = APART) -> bool:
+    """Whether the feet (m, 3) of a seed are pairwise different: by a part of its radius."""
+    one, other = np.triu_indices(len(feet), 1)
+    gaps = norm(feet[one] - feet[other])
+    return bool((gaps > within * float(norm(point - feet[0]))).all())

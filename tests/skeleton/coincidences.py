@@ -101,6 +101,13 @@ def keyed_shaft() -> Solid:
     return shaft - slot
 
 
+def rounded_block_with_pocket() -> Solid:
+    """The pocket's corner is over the line in which the rounding goes on into a side."""
+    block = Block((4, 0, 0), (8, 10, 16)) | Block((0, 4, 0), (12, 6, 16))
+    rounded = block | Cylinder((4, 4, 0), (4, 4, 16), 4)
+    return rounded - Block((6, 4, 10), (4, 4, 9))
+
+
 def bored_block() -> Solid:
     """Two equal bores cross: at two points both have one normal, in which sheets end."""
     block = Block((0, 0, 0), (40, 40, 30))
@@ -196,6 +203,9 @@ COINCIDENCES: dict[str, Coincidence] = {
     "ribbed plate": Coincidence(ribbed_plate, (20000 + 26 * 4 * 26 - 500 * pi,), (-1,)),
     "tray with socket": Coincidence(tray_with_socket, (57600 - 33280 - 24 * pi,), (1,)),
     "keyed shaft": Coincidence(keyed_shaft, (_keyed_volume(),), (1,)),
+    "rounded block with pocket": Coincidence(
+        rounded_block_with_pocket, (1920 - (16 - 4 * pi) * 16 - 96,), (1,)
+    ),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
     "bored tee": Coincidence(bored_tee, (60 * pi * 19 - _branch_volume(10, 9),), (-1,)),

@@ -8,10 +8,17 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.medial.curves_of_region import seam_pieces
+from decomp.medial.incidence import Incidence
+from decomp.medial.touching import touching_points
 from decomp.tracing.contacts import contacts
-from decomp.tracing.graph import SeamGraph, seam_graph
+from decomp.tracing.graph import Seam, SeamGraph, seam_graph
 from decomp.tracing.local import seam_rays
-from decomp.vectors import norm
+from decomp.tracing.seam_points import SeamPoints
+from decomp.tracing.seam_states import SeamEnd, State
+from decomp.tracing.seams import SeamTracer
+from decomp.tracing.seeds import Seeds
+from decomp.vectors import Array, norm
 from tests.solids import SOLIDS
 
 CUBE = decomp.Block((0, 0, 0), (2, 2, 2), name="cube")
@@ -102,6 +109,86 @@ def test_a_closed_seam_is_found_from_the_footprint() -> None:
         assert np.abs(norm(seam.points[:, :2]) - radius).max() <= 1e-12
         assert np.abs(seam.points[:, 2] - 0.5).max() <= 1e-12
         assert seam.length == pytest.approx(2 * pi * radius, rel=1e-3)
+
+
+def test_closed_seams_close_wherever_they_begin() -> None:
+    """Also just before a change of their sites, up to which the last step is a short one."""
+    shaft = decomp.Cylinder((0, 0, 0), (22, 0, 0), 13) | decomp.Cylinder((22, 0, 0), (40, 0, 0), 9)
+    slot: decomp.Solid = decomp.Block((8, -3, 10.5), (4, 6, 10))
+    for x in (8, 12):
+        slot = slot | decomp.Cylinder((x, 0, 10.5), (x, 0, 20.5), 3)
+    geometry, graph = graph_of(shaft - slot)
+    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    tracer = SeamTracer(points, 0.05)
+    begun = 0
+    for seam in graph.seams:
+        sites = seam.sites
+        for k in range(1, len(sites) - 1) if seam.ends is None else ():
+            if sites[k - 1] != sites[k] or sites[k] == sites[k + 1]:
+                continue
+            way = seam.points[k] - seam.points[k - 1]
+            at = seam.points[k] - 0.1 * way
+            start = points.state(sites[k], at, seam.feet[k - 1], way / norm(way))
+            assert start is not None
+            assert tracer.trace(start).end is SeamEnd.CLOSED
+            begun += 1
+    assert begun > 3
+
+
+def test_a_seam_that_touches_a_trim_in_its_middle_only() -> None:
+    """A slot's round end is as far from the rod's end as its bottom is from the rod's side."""
+    rod = decomp.Cylinder((0, 0, 0), (6, 0, 0), 5, name="rod")
+    slot = decomp.Block((-1.2, -1.2, 3), (2, 2.4, 9), name="slot")
+    end = decomp.Cylinder((0.8, 0, 3), (0.8, 0, 9), 1.2, name="end")
+    geometry, graph = graph_of(rod - (slot | end))
+    touch = np.array([[4.0, 0.0, 3.0]])
+    (seam,) = (s for s in graph.seams if np.abs(s.points - touch).max(axis=1).min() < 0.1)
+    # half of it and its mirror image: the touch is the middle point
+    half = seam.points[:, 1] > 1e-3
+    mirror = np.array([1.0, -1.0, 1.0])
+    points, feet = seam.points[half], seam.feet[half]
+    order = np.argsort(-points[:, 1])
+    points, feet = points[order], feet[order]
+    at_touch = np.array([[[2.0, 0, 3], [6.0, 0, 3], [4.0, 0, 5]]])
+    names = [geometry.sites[k].name for k in seam.sites[len(seam.sites) // 2]]
+    assert names == ["end.side|slot.zmin", "rod.top", "rod.side"]
+    whole = Seam(
+        np.concatenate([points, touch, (points * mirror)[::-1]]),
+        np.full(2 * len(points) + 1, np.nan),
+        (seam.sites[len(seam.sites) // 2],) * (2 * len(points) + 1),
+        np.concatenate([feet, at_touch, (feet * mirror)[::-1]]),
+        (0, 1),
+    )
+    incidence = Incidence(geometry.regions[0], geometry.sites, 0)
+    (piece,) = seam_pieces(incidence, [whole])
+    assert np.abs(piece.middle - touch).max() <= 1e-12
+    assert [len(contact) for contact in piece.contacts] == [1, 1, 1]
+    (found,) = touching_points(incidence, [piece])
+    assert np.abs(found - touch).max() <= 1e-6
+
+
+def test_seeds_on_trims_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a vertex takes over from its edge both are as near, to rounding: no seam is there."""
+    block = decomp.Block((0, 0, 0), (10, 10, 12), name="b") - decomp.Block(
+        (5, 4, 6), (9, 9, 9), name="c"
+    )
+    geometry, graph = graph_of(block)
+    names = ["b.xmin", "c.xmin|c.zmin", "c.xmin|c.ymin|c.zmin"]
+    sites = tuple(next(k for k, s in enumerate(geometry.sites) if s.name == n) for n in names)
+    y = 4 + 3e-7
+    point, feet = np.array([2.6, y, 5]), np.array([[0, y, 5], [5, y, 6], [5, 4, 6]])
+    way = np.array([1.0, 0.0, 2.6]) / sqrt(1 + 2.6**2)
+    state = State(point, 2.6, sites, feet, way, 0.0)
+    settled = SeamPoints.settled
+
+    def on_trim(points: SeamPoints, near: Array, known: Array, along: Array) -> State | None:
+        return state if (near == point).all() else settled(points, near, known, along)
+
+    monkeypatch.setattr(SeamPoints, "settled", on_trim)
+    monkeypatch.setattr(
+        "decomp.tracing.graph.seam_seeds", lambda *_: Seeds(point[None], feet[None])
+    )
+    assert len(seam_graph(geometry.index, geometry.regions[0], 0).seams) == len(graph.seams)
 
 
 def test_similar_solids_have_similar_graphs() -> None:
