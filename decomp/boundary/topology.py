@@ -10,6 +10,7 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.csg.options import Options
 from decomp.curves.base import Curve
+from decomp.tolerance import Tolerances
 from decomp.vectors import Array
 
 
@@ -146,6 +147,11 @@ class RegionBoundary:
     bounds: Array
     euler: int
     touches: tuple[str, ...] = ()
+
+    @property
+    def tolerances(self) -> Tolerances:
+        """What counts as one, made from its size."""
+        return Tolerances(self.diagonal)
 
     @property
     def diagonal(self) -> float:

@@ -24,9 +24,10 @@ from decomp.medial.rim_curve import RimCurve
 from decomp.medial.sampling import sampled
 from decomp.medial.self_sheets import SelfSheetMaker
 from decomp.medial.sheets import SheetMaker
-from decomp.medial.trim_maker import AT_END, BoundaryVertices, TrimMaker
+from decomp.medial.trim_maker import BoundaryVertices, TrimMaker
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
+from decomp.tolerance import AT_END
 from decomp.tracing.contacts import contacts
 from decomp.tracing.loci import axis_gap, on_locus
 from decomp.vectors import Array, Ints, norm

@@ -12,7 +12,7 @@ import numpy as np
 from decomp.medial.drawn_sheets import SheetPart
 from decomp.medial.incidence import Incidence
 from decomp.medial.sheet_surface import SheetSurface
-from decomp.medial.trim_maker import AT_END, BoundaryVertices
+from decomp.medial.trim_maker import BoundaryVertices
 from decomp.sites import SiteIndex
 from decomp.tracing.balls import Balls, inscribed_balls
 from decomp.vectors import Array, Ints, cross, dot, norm
@@ -78,7 +78,7 @@ class ClosedSheetMaker:
     ) -> SheetPart:
         """The sheet over a face's triangles (m, 3) of feet (k, 3), pointed at vertices (j,)."""
         own, other = sites
-        slack = AT_END * self._incidence.boundary.diagonal
+        slack = self._incidence.boundary.tolerances.at_end
         same = norm(balls.centre[:, None] - at[None]) <= slack
         numbers = np.array(
             [

@@ -16,12 +16,11 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.model import CurveElement, LineKind
 from decomp.medial.curve_elements import gaps_from
+from decomp.tolerance import ONE_NODE
 from decomp.vectors import Array, Ints, norm
 
-WELD = 1e-7
-"""Nodes nearer to each other than this part of the region's size are one."""
 LEAST = 10
-"""A piece from a node back to it is longer than so many times `WELD`."""
+"""A piece from a node back to it is longer than so many times `ONE_NODE`."""
 ON = 3e-8
 """Nodes nearer to a curve than this part of the size lie on it."""
 
@@ -101,18 +100,18 @@ def network(
     """
     open_ = [p for p in pieces if not _is_loop(p)]
     # a seam that comes back to its start at once is no more than its node
-    loops = [p for p in pieces if _is_loop(p) and p.length > LEAST * WELD * size]
+    loops = [p for p in pieces if _is_loop(p) and p.length > LEAST * ONE_NODE * size]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
     firm, loose = (np.array(points).reshape(-1, 3) for points in (turns, touches))
     every = np.concatenate([fixed, firm, ends, loose])
-    nodes, which = _welded(every, len(fixed), WELD * size)
+    nodes, which = _welded(every, len(fixed), ONE_NODE * size)
     first = len(fixed) + len(firm)
     numbers = which[first : first + len(ends)].reshape(-1, 2)
     joined = []
     for piece, (a, b) in zip(open_, numbers.tolist(), strict=True):
         points = np.array(piece.points)
         points[0], points[-1] = nodes[a], nodes[b]
-        if a == b and piece.length <= LEAST * WELD * size:
+        if a == b and piece.length <= LEAST * ONE_NODE * size:
             continue
         joined.append(replace(piece, points=points, ends=(a, b)))
     tree = cKDTree(nodes)

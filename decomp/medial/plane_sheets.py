@@ -11,10 +11,8 @@ from decomp.medial.component_votes import kept_components
 from decomp.medial.drawn_sheets import DrawnCurves, SheetPart
 from decomp.medial.mirror_plane import MirrorPlane
 from decomp.medial.sheet_tests import SheetTests
+from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, Ints
-
-FLAT = 1e-9
-"""A sheet that leaves a plane by less than this part of the size lies in it."""
 
 
 class PlaneSheets:
@@ -34,7 +32,7 @@ class PlaneSheets:
         """The plane that points (k, 3) lie in, None if they leave it or determine none."""
         middle = points.mean(axis=0)
         _, spread, axes = np.linalg.svd(points - middle, full_matrices=False)
-        limit = FLAT * self._size * np.sqrt(len(points))
+        limit = TOLERANCE * self._size * np.sqrt(len(points))
         if len(points) < 3 or spread[-1] > limit or spread[1] <= limit:
             return None
         return MirrorPlane(middle, axes[2])

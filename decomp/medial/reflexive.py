@@ -28,8 +28,6 @@ from decomp.vectors import Array, Bools, norm
 
 ZERO = 1e-10
 """Depths below this part of the region's size are zero."""
-SAME = 1e-9
-"""Reflexive points nearer to each other than this part of the region's size are one."""
 FINEST = 1e-5
 """Parts of a locus shorter than this part of the region's size can be missed."""
 AROUND = 72
@@ -99,7 +97,7 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
         if isinstance(curve, Circle):
             locus = circle_axis(curve, boundary.bounds)
             found.extend(_Search(index, incidence, (site,), locus).parts())
-    return _distinct(found, SAME * boundary.diagonal)
+    return _distinct(found, boundary.tolerances.same)
 
 
 def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePart]:

@@ -15,6 +15,7 @@ from decomp.errors import GeometryError
 from decomp.medial.edge_wells import EdgeWells
 from decomp.medial.incidence import Incidence
 from decomp.medial.rim_curve import RimCurve
+from decomp.tolerance import CONVERGED
 from decomp.tracing.fields import site_fields
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
@@ -24,7 +25,7 @@ STEPS = 60
 ASIDE = 1.0
 """How much a way from a known point counts beside the distance from its feet."""
 BLOCK = 1024
-REST, CONVERGED = 4e-16, 1e-12
+REST = 4e-16
 """Differences of distances, as parts of the size, at which it is stopped, and that are good."""
 
 

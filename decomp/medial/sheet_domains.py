@@ -25,9 +25,6 @@ from decomp.vectors import Array, cross, norm
 
 RANKS = {"plane": 0, "cone": 3, "cylinder": 2, "sphere": 4, "torus": 5}
 FLAT = 1e-10
-MERGED = 1e-9
-"""Points of a footprint nearer to each other than this part of the size have merged."""
-AT_LOCUS = 1e-7
 WAYS = 2000
 """Directions from a sphere's centre among which a pole is looked for."""
 
@@ -53,6 +50,7 @@ class SheetDomains:
     def __init__(self, incidence: Incidence, tests: SheetTests) -> None:
         self._incidence, self._tests = incidence, tests
         self._boundary, self._size = incidence.boundary, incidence.boundary.diagonal
+        self._tolerances = incidence.boundary.tolerances
 
     def drawn(
         self, pair: tuple[int, int], points: Array, feet: Array, surface: SheetSurface
@@ -78,7 +76,7 @@ class SheetDomains:
             lambda at: self._tests.touches(own, other, *domain.lift(at)),
         )
         uv = domain.to_plane(feet[:, column], points)
-        domain = around_locus(domain, uv, self._locus_gap(own, points) <= AT_LOCUS * self._size)
+        domain = around_locus(domain, uv, self._locus_gap(own, points) <= self._tolerances.on_locus)
         uv = domain.to_plane(feet[:, column], points)
         if not self._merged(uv) and not self._hidden(pair[column], points, feet[:, column]):
             return Drawing(uv, domain, column)
@@ -112,21 +110,21 @@ class SheetDomains:
         if it.kind is not SiteKind.EDGE:
             return None
         edge = self._boundary.edges[it.index]
-        uv = about_centre(self._boundary, edge, points, feet, AT_LOCUS * self._size)
+        uv = about_centre(self._boundary, edge, points, feet, self._tolerances.on_locus)
         return None if uv is None or self._merged(uv) else uv
 
     def _merged(self, uv: Array) -> bool:
-        return bool(cKDTree(uv).query_pairs(MERGED * self._size))
+        return bool(cKDTree(uv).query_pairs(self._tolerances.same))
 
     def _hidden(self, site: int, points: Array, feet: Array) -> bool:
         """Whether a point on an edge, which no direction tells from it, is a foot of others."""
         if self._incidence.sites[site].kind is not SiteKind.EDGE:
             return False
-        on = norm(points - feet) <= MERGED * self._size
+        on = norm(points - feet) <= self._tolerances.same
         if not on.any() or on.all():
             return False
         gaps = cKDTree(feet[on]).query(feet[~on])[0]
-        return bool(gaps.min() <= MERGED * self._size)
+        return bool(gaps.min() <= self._tolerances.same)
 
     def _along_and_away(self, site: int, points: Array, feet: Array) -> Array | None:
         """Lengths along an open edge and distances from it, as plane coordinates (k, 2)."""
@@ -156,7 +154,7 @@ class SheetDomains:
         """Which site's footprint to use: simple carriers first, none whose locus is reached."""
 
         def cost(column: int) -> int:
-            reached = self._locus_gap(pair[column], points).min() <= AT_LOCUS * self._size
+            reached = self._locus_gap(pair[column], points).min() <= self._tolerances.on_locus
             return self._rank(pair[column]) + (10 if reached else 0)
 
         return min((0, 1), key=cost)

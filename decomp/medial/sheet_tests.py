@@ -17,7 +17,6 @@ OFF = 1e-6
 """How far off a foot it is asked whether the foot is on the boundary, as a part of the size."""
 NEARER = 0.3
 """How far towards a foot it is asked which site has it."""
-SLACK = 1e-9
 
 
 class SheetTests:
@@ -59,7 +58,10 @@ class SheetTests:
         image = mirrored(found.foot)
         apart = norm(image - found.foot) > OFF * self._size
         toward = self._index.nearest(points + NEARER * (image - points))
-        touched = np.abs(toward.distance - (1 - NEARER) * found.distance) <= SLACK * self._size
+        touched = (
+            np.abs(toward.distance - (1 - NEARER) * found.distance)
+            <= self._incidence.boundary.tolerances.same
+        )
         return np.asarray(good & apart & touched)
 
     def in_skeleton(self, pair: tuple[int, int], near: Array, surface: SheetSurface) -> Bools:
@@ -69,7 +71,7 @@ class SheetTests:
         which: Ints = np.tile(np.array(pair), (len(moved), 1))
         feet = self._incidence.feet(pair, moved)
         reach = norm(moved - feet[:, 0])
-        slack = SLACK * self._size
+        slack = self._incidence.boundary.tolerances.same
         good = good & (found.region == self._incidence.region)
         good &= found.distance >= reach - slack
         for column in (0, 1):

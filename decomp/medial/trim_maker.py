@@ -18,12 +18,11 @@ from decomp.medial.normal_curves import EdgeNormals, NormalCurve, VertexNormals
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
 from decomp.medial.trim_surfaces import RuledSurface, strip
+from decomp.tolerance import AT_END
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 STRAIGHT = 1e-9
 """The area of a triangle on a straight line, in parts of the square of its side."""
-AT_END = 1e-6
-"""Points nearer to each other than this part of the size are one."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,8 +30,6 @@ from decomp.tracing.queries import RegionQueries
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, cross, norm
 
-ON_LOCUS = 1e-7
-"""Points nearer to a locus than this part of the size are on it, and radii are as exact."""
 TURNS = 180
 """Points of a circle at which it is seen where it is on the boundary."""
 ON_BOUNDARY = 1e-10
@@ -56,7 +54,7 @@ class Arcs:
     ) -> None:
         self._boundary, self._sites, self._queries = boundary, sites, queries
         self._region = region
-        self._size = boundary.diagonal
+        self._size, self._near = boundary.diagonal, boundary.tolerances.on_locus
         self._beside: dict[int, list[int]] = {}
         for edge in boundary.edges:
             if edge.convexity is Convexity.SMOOTH:
@@ -181,7 +179,7 @@ class Arcs:
         at = {face for sites in touching.sites for k in sites for face in self._faces_at(k)}
         # a contact can be on the border of a face that touches all along, without being told so
         at |= {face for k in at for face in self._beside.get(k, ())}
-        for near in self._vertices.query_ball_point(touching.feet, ON_LOCUS * self._size):
+        for near in self._vertices.query_ball_point(touching.feet, self._near):
             at |= {face for k in near for face in self._boundary.vertices[k].faces}
         return {k for k in at & faces.keys() if self._osculates(faces[k], touching.radius, point)}
 
@@ -189,13 +187,13 @@ class Arcs:
         carrier = self._boundary.carriers[face.carrier]
         gap = float(reflexive_gap(carrier, face.outward, point[None])[0])
         depth = abs(float(carrier.signed_distance(point)))
-        return gap <= ON_LOCUS * self._size and abs(depth - radius) <= ON_LOCUS * self._size
+        return gap <= self._near and abs(depth - radius) <= self._near
 
     def _is_about(self, circle: Circle, touching: Contacts, point: Array) -> bool:
         """Whether a ball about a point touches all of a circle, which may be an edge in part."""
         gap = float(axis_gap(circle, point[None])[0])
         off = float(np.hypot(norm(point - circle.centre), circle.radius)) - touching.radius
-        return max(gap, abs(off)) <= ON_LOCUS * self._size
+        return max(gap, abs(off)) <= self._near
 
     def _is_on(self, sites: tuple[int, ...], faces: set[int], edges: Collection[int] = ()) -> bool:
         """Whether a contact is a point of an arc, or its end."""
@@ -206,7 +204,7 @@ class Arcs:
     def _is_at_border(self, foot: Array, faces: set[int]) -> bool:
         """Whether a contact of another face is where that goes on into one of some round ones."""
         carriers = [self._boundary.carriers[self._boundary.faces[k].carrier] for k in faces]
-        return any(abs(float(c.signed_distance(foot))) <= ON_LOCUS * self._size for c in carriers)
+        return any(abs(float(c.signed_distance(foot))) <= self._near for c in carriers)
 
     def _is_inside(self, sites: tuple[int, ...], faces: set[int], edges: set[int]) -> bool:
         """Whether a contact is a point of an arc, and not its end."""
@@ -236,7 +234,7 @@ class Arcs:
         for number in faces:
             carrier = self._boundary.carriers[self._boundary.faces[number].carrier]
             off = np.abs(carrier.signed_distance(touching.feet))
-            known = np.flatnonzero(np.array(on) & (off <= ON_LOCUS * self._size))
+            known = np.flatnonzero(np.array(on) & (off <= self._near))
             if not len(known):
                 continue
             start, axis = touching.feet[known[0]] - point, _axis(carrier, point)

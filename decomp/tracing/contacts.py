@@ -19,10 +19,6 @@ from decomp.tracing.queries import region_queries
 from decomp.tracing.supports import support_table
 from decomp.vectors import Array, norm
 
-ON_EDGE = 1e-9
-EXACT = 1e-12
-"""Feet on the boundary are as near as queries say, to this part of the size."""
-
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
@@ -77,10 +73,10 @@ class ContactFinder:
         count = close_feet(self._probe, x, y, z, radius + slack, self._feet)
         feet = self._feet[:count].copy()
         found = self._queries.nearest(point + TOWARDS * (feet - point))
-        size = self._boundary.diagonal
-        true = np.abs(found.distance - (1 - TOWARDS) * norm(feet - point)) <= EXACT * size
+        exact = self._boundary.tolerances.converged
+        true = np.abs(found.distance - (1 - TOWARDS) * norm(feet - point)) <= exact
         # so far off its site can a foot be without being noticed
-        gap = max(slack, 3 * float(np.sqrt(2 * radius * EXACT * size)))
+        gap = max(slack, 3 * float(np.sqrt(2 * radius * exact)))
         groups: list[tuple[Array, set[int]]] = []
         for site, own, spot in zip(
             found.site[true].tolist(), found.foot[true], feet[true], strict=True
@@ -135,7 +131,7 @@ class ContactFinder:
         if site not in self._parts:
             return True
         edge = self._boundary.edges[self._sites[site].index]
-        return edge.holds(foot, ON_EDGE * self._boundary.diagonal)
+        return edge.holds(foot, self._boundary.tolerances.same)
 
 
 @scalar

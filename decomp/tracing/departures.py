@@ -20,11 +20,11 @@ import numpy as np
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.sites.site import SiteKind
-from decomp.tracing.contacts import EXACT, Contacts
+from decomp.tracing.contacts import Contacts
 from decomp.tracing.fields import support_fields
 from decomp.tracing.local import SeamRay
 from decomp.tracing.probing import TOWARDS
-from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, Ints, frame, norm
 
@@ -108,7 +108,7 @@ def _unfolded(
     edges = [points.boundary.edges[s.index] for s in sites if s.kind is SiteKind.EDGE]
     if all(isinstance(edge.curve, Line) for edge in edges):
         return None
-    ahead = points.contacts.at(state.point, SLACK * points.size)
+    ahead = points.contacts.at(state.point, points.tolerances.same)
     if len(ahead.feet) != len(leaving) + 1:
         return None
     nearest = norm(ahead.feet[:, None] - touching.feet[None, list(leaving)]).argmin(axis=1)
@@ -148,7 +148,7 @@ def _local(
     feet = support_fields(points.table, sites, copies, touching.feet[contacts]).foot
     distance = norm(ahead - feet)
     found = points.queries.nearest(ahead + TOWARDS * (feet - ahead)).distance
-    true = np.abs(found - (1 - TOWARDS) * distance) <= EXACT * points.size
+    true = np.abs(found - (1 - TOWARDS) * distance) <= points.tolerances.converged
     true &= norm(feet - touching.feet[contacts]) <= 0.5 * touching.radius
     kept: list[int] = []
     for k in np.flatnonzero(true):

@@ -15,12 +15,12 @@ import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites.site import Site
+from decomp.tolerance import CONVERGED
 from decomp.tracing.balance import balance_all
 from decomp.tracing.raising import raised
 from decomp.tracing.supports import SupportTable, support_table
 from decomp.vectors import Array, Bools, Ints, norm
 
-CONVERGED = 1e-12
 POLISHED = 1e-6
 """How far, as a part of the size, a point over its foot is moved by Newton's method at most."""
 

@@ -20,7 +20,7 @@ from decomp.tracing.graph_nodes import GraphNodes, OversteppedError
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay, seam_rays
 from decomp.tracing.seam_graph_model import Node, Piece, Seam, SeamGraph
-from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import SeamEnd, State, Traced
 from decomp.tracing.seams import SeamTracer
 from decomp.tracing.seeds import Seeds, seam_seeds
@@ -239,7 +239,7 @@ class _Grower:
             return
         if self._points.on_locus(state.sites, state.point) or self._nodes.is_centre(state):
             return
-        touching = self._points.contacts.at(state.point, SLACK * self._size)
+        touching = self._points.contacts.at(state.point, self._points.tolerances.same)
         if len(touching.feet) > len(state.sites):
             whole = self._points.settled(state.point, touching.feet, state.tangent)
             if whole is None:

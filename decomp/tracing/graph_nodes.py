@@ -16,12 +16,10 @@ from decomp.tracing.fins import with_one_foot
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay
 from decomp.tracing.seam_graph_model import Node
-from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
 
-WELD = 1e-7
-"""Nodes nearer than this part of the size are one."""
 CELL = 1e-3
 ENDING = 1e-5
 
@@ -100,7 +98,9 @@ class GraphNodes:
 
     def is_on_locus(self, point: Array) -> bool:
         """Whether a point is a centre of curvature of a face that its ball touches."""
-        return self._arcs.touches_along(self._points.contacts.at(point, SLACK * self._size), point)
+        return self._arcs.touches_along(
+            self._points.contacts.at(point, self._points.tolerances.same), point
+        )
 
     def at(self, point: Array, ending: State | None = None) -> int:
         """The node at a point, a new one unless it is known.
@@ -112,7 +112,7 @@ class GraphNodes:
         known = self.known(point)
         if known is not None:
             return known
-        touching = self._points.contacts.at(point, SLACK * self._size)
+        touching = self._points.contacts.at(point, self._points.tolerances.same)
         if ending is not None:
             touching = with_one_foot(touching, ending)
         touching, leaving = self._arcs.leaving(touching, point)
@@ -138,7 +138,7 @@ class GraphNodes:
         """Add a node with the first points of its rays."""
         number = len(self.nodes)
         self.nodes.append(node)
-        reach = 2 * WELD * self._size
+        reach = 2 * self._points.tolerances.one_node
         corners = [node.point + reach * np.array(c) for c in product((-1.0, 1.0), repeat=3)]
         for cell in {_cell(corner, self._size) for corner in corners}:
             self._places.setdefault(cell, []).append(number)
@@ -160,7 +160,7 @@ class GraphNodes:
     def known(self, point: Array) -> int | None:
         """The node at a point; nodes are kept by the cells of a grid that they are close to."""
         for number in self._places.get(_cell(point, self._size), []):
-            if float(norm(self.nodes[number].point - point)) <= WELD * self._size:
+            if float(norm(self.nodes[number].point - point)) <= self._points.tolerances.one_node:
                 return number
         return None
 

@@ -18,11 +18,10 @@ from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
+from decomp.tolerance import TOUCHING
 from decomp.tracing.compiled import inner
 from decomp.vectors import Array
 
-TOUCH = 1e-11
-"""Distances that differ by less than this part of the size count as equal."""
 TOWARDS = 0.3
 """How far towards a foot a query is made to see whether the foot is on the boundary."""
 HOLDS, INTRUDED, LOST, JOINED = 0, 1, 2, -1
@@ -58,7 +57,7 @@ def probe_of(
     size: float,
 ) -> Probe:
     """Put together what queries in a region of a given size need."""
-    return Probe(occupancy, sites, candidates, boxes, label, TOUCH * size)
+    return Probe(occupancy, sites, candidates, boxes, label, TOUCHING * size)
 
 
 @inner

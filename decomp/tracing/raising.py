@@ -11,6 +11,7 @@ from math import inf, sqrt
 
 import numpy as np
 
+from decomp.tolerance import CONVERGED
 from decomp.tracing.compiled import inner, scalar
 from decomp.tracing.supports import FACE, SupportTable, support
 from decomp.vectors import Array, Bools, Ints, norm
@@ -18,8 +19,6 @@ from decomp.vectors import Array, Bools, Ints, norm
 STEPS = 200
 AT_REST = 4e-16
 """Steps below this part of the size are the last ones."""
-OUTSIDE = 1e-12
-"""A foot farther than this part of the size outside another site has no ball that touches both."""
 
 
 @inner
@@ -77,11 +76,11 @@ def grown(
         step, r = after - r, after
         if abs(step) <= AT_REST * size or high - low <= AT_REST * size:
             break
-    if r <= OUTSIDE * size:
+    if r <= CONVERGED * size:
         away, _, _, _, _, _, _ = support(
             table, other, q[0], q[1], q[2], feet[i, 0], feet[i, 1], feet[i, 2]
         )
-        if away < -OUTSIDE * size:
+        if away < -CONVERGED * size:
             return -1.0
     return r
 

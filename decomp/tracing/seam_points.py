@@ -11,20 +11,17 @@ from decomp.carriers import Carrier
 from decomp.carriers.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
+from decomp.tolerance import ON_LOCUS
 from decomp.tracing.contacts import ContactFinder
 from decomp.tracing.following import settle
 from decomp.tracing.loci import on_locus
-from decomp.tracing.probing import TOUCH, TOWARDS
+from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import region_queries
 from decomp.tracing.seam_states import State
 from decomp.tracing.stretch import Stretch
 from decomp.tracing.supports import support_table
 from decomp.vectors import Array
 
-SLACK = 1e-9
-"""Contacts whose distances differ by less than this part of the size are looked at as equal."""
-LOCUS = 1e-7
-"""Points nearer to a reflexive locus than this part of the size lie on it."""
 NEAR_LOCUS = 0.02
 """Balls whose centres are nearer to a locus than this part of their radius may be coming to it."""
 TURNS = 6
@@ -36,7 +33,7 @@ class SeamPoints:
 
     def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
         self.index, self.boundary, self.region = index, boundary, region
-        self.size = boundary.diagonal
+        self.size, self.tolerances = boundary.diagonal, boundary.tolerances
         self.table = support_table(boundary, index.sites)
         self.contacts = ContactFinder(index, boundary, region)
         self.queries = region_queries(index, region)
@@ -60,7 +57,7 @@ class SeamPoints:
         """Whether a point is truly on the skeleton, with these sites."""
         towards = state.point + TOWARDS * (state.feet - state.point)
         found = self.queries.nearest(np.concatenate([state.point[None], towards]))
-        slack = TOUCH * self.size
+        slack = self.tolerances.touching
         return bool(
             found.region[0] == self.region
             and found.distance[0] >= state.radius - slack
@@ -118,4 +115,4 @@ class SeamPoints:
     def on_locus(self, sites: Sequence[int], point: Array) -> bool:
         """Whether a point is a centre of curvature of one of the faces among some sites."""
         own = [k for k in sites if k >= 0]
-        return bool(on_locus(self.boundary, self.index.sites, own, point[None], LOCUS)[0])
+        return bool(on_locus(self.boundary, self.index.sites, own, point[None], ON_LOCUS)[0])

@@ -18,7 +18,6 @@ from decomp.tracing.vertex_fins import at_vertex
 from decomp.tracing.walls import ALONG, CROSSED, JOINS, MISSED, Wall, Walls, cross, gap_ahead
 from decomp.vectors import Array, norm
 
-FOOT_ON_EDGE = 1e-9
 AT_VERTEX = 1e-4
 """Feet lost while they run together are nearer to their vertex than this part of the size."""
 NEAR_WALL = 1e-3
@@ -44,7 +43,7 @@ class SeamStops:
         if found is None:
             return None
         base, state, spot = found
-        if float(norm(state.feet[contact] - spot)) <= FOOT_ON_EDGE * self._size:
+        if float(norm(state.feet[contact] - spot)) <= self._points.tolerances.same:
             state.feet[contact] = spot
         state = self._exactly(state)
         return stretch.cut(base, state, self._size), state
@@ -195,7 +194,7 @@ class SeamStops:
                 )
                 if found == JOINS:
                     found = self._arrive(stretch, base, spare, (low, high), wall, foot, spot)
-                if found == MISSED or self._walls.beyond(wall, spot) > FOOT_ON_EDGE * self._size:
+                if found == MISSED or self._walls.beyond(wall, spot) > self._points.tolerances.same:
                     continue
                 off = float(norm(spot - foot))
                 if off <= NEAR_WALL * self._size and (best is None or off < best[0]):

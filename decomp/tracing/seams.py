@@ -17,7 +17,7 @@ from decomp.tracing.departures import departures
 from decomp.tracing.following import CLOSED, ENDED, FULL, STUCK, follow
 from decomp.tracing.local import seam_rays
 from decomp.tracing.probing import INTRUDED, JOINED
-from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import SeamEnd, State, Traced
 from decomp.tracing.seam_stops import SeamStops, nearest_pair
 from decomp.tracing.stretch import Stretch
@@ -167,7 +167,7 @@ class SeamTracer:
         does: there a face is as near all around.
         """
         points = self._points
-        touching = points.contacts.at(at.point, SLACK * points.size)
+        touching = points.contacts.at(at.point, points.tolerances.same)
         if any(points.on_locus(sites, at.point) for sites in touching.sites):
             return None
         rays = seam_rays(touching.gradients)

@@ -6,12 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from decomp.tolerance import AT_END
 from decomp.tracing.seam_graph_model import Node, Seam
 from decomp.tracing.seam_states import Traced
 from decomp.vectors import Array, Bools, norm
-
-AT_NODE = 1e-6
-"""Points nearer to a node than this part of the size, and those behind them, give way to it."""
 
 
 def seam_between(
@@ -51,7 +49,7 @@ def _before(points: Array, node: Node, size: float) -> Bools:
     Where contacts run together a seam is followed past its end a little, or rounding moves it to
     and fro beside the node.
     """
-    near = norm(points - node.point) <= AT_NODE * size
+    near = norm(points - node.point) <= AT_END * size
     return np.asarray(np.cumsum(near) == 0)
 
 

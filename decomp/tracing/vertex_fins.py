@@ -14,20 +14,19 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.sites.site import SiteKind
+from decomp.tolerance import AT_END
 from decomp.tracing.fields import support_fields
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array, norm
 
-NEAR = 1e-6
-"""How far off feet and place are by default."""
 STEPS = 20
 ACROSS = 1e-3
 """Conditions on the line that differ less than this are one."""
 
 
 def at_vertex(
-    points: SeamPoints, state: State, pair: tuple[int, int], within: float = NEAR
+    points: SeamPoints, state: State, pair: tuple[int, int], within: float = AT_END
 ) -> State | None:
     """The same end of a seam, exactly.
 
