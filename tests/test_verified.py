@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import decomp
+from benchmarks.membership import held
 from decomp.boundary import assembled, faces, integrals, loops
 from decomp.csg.primitives import Block, Cone, Cylinder, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.vectors import Array
-from tests.laws import plain
 
 TWO_TOPS = Block((0, 0, 0), (6, 2, 1)) | Block((0, 0, 1), (1, 1, 1)) | Block((4, 0, 1), (1, 1, 1))
 CROSS = Cylinder((-3, 0, 0), (3, 0, 0), 1) | Cylinder((0, -3, 0), (0, 3, 0), 1)
@@ -129,5 +129,5 @@ def test_apexes_poles_and_cusps_are_counted(solid: Solid) -> None:
     region = decomp.Geometry(solid).regions[0]
     low, high = region.bounds
     points: Array = np.random.default_rng(1).uniform(low, high, (200_000, 3))
-    part = plain.holds(solid, points).mean()
+    part = held(solid, points).mean()
     assert region.volume == pytest.approx(part * np.prod(high - low), rel=0.02)

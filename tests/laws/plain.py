@@ -1,4 +1,4 @@
-"""Membership, and samples of boundaries, from the primitives' own numbers alone.
+"""Samples of boundaries, from the primitives' own numbers alone.
 
 Nothing here uses carriers, programs or trees of boxes, whose results it judges.
 """
@@ -7,45 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.membership import held
 from decomp.csg.primitives import Block, Cone, Cylinder, Sphere, Torus
 from decomp.csg.solid import Difference, Intersection, Solid, Transformed, Union
-from decomp.vectors import Array, Bools
-
-
-def holds(solid: Solid, p: Array) -> Bools:
-    """Whether points (n, 3) lie in a solid."""
-    match solid:
-        case Union(parts=parts):
-            return np.any([holds(part, p) for part in parts], axis=0)
-        case Intersection(parts=parts):
-            return np.all([holds(part, p) for part in parts], axis=0)
-        case Difference(base=base, tool=tool):
-            return holds(base, p) & ~holds(tool, p)
-        case Transformed(part=part, by=by):
-            return holds(part, (p - by.offset) @ by.rotation / by.scale)
-        case Block(corner=corner, size=size):
-            return ((p > corner) & (p < corner + size)).all(axis=1)
-        case Sphere(centre=centre, radius=radius):
-            return ((p - centre) ** 2).sum(axis=1) < radius**2
-        case Cylinder(base=base, top=top, radius=radius):
-            part, rho = _along(p, base, top)
-            return (part > 0) & (part < 1) & (rho < radius)
-        case Cone():
-            part, rho = _along(p, solid.base, solid.top)
-            wide = solid.base_radius + part * (solid.top_radius - solid.base_radius)
-            return (part > 0) & (part < 1) & (rho < wide)
-        case Torus(centre=centre, axis=axis, major=major, minor=minor):
-            height = (p - centre) @ axis
-            rho = np.linalg.norm(p - centre - height[:, None] * axis, axis=1)
-            return np.asarray(np.hypot(rho - major, height) < minor)
-    raise AssertionError(solid)
-
-
-def _along(p: Array, base: Array, top: Array) -> tuple[Array, Array]:
-    """The part of the way from base to top, and the distance from the axis."""
-    axis = top - base
-    part = (p - base) @ axis / (axis @ axis)
-    return part, np.linalg.norm(p - base - part[:, None] * axis, axis=1)
+from decomp.vectors import Array
 
 
 def leaves(solid: Solid) -> list[Solid]:
@@ -65,7 +30,7 @@ def boundary_samples(solid: Solid, count: int, rng: np.random.Generator, step: f
     found = []
     for leaf in leaves(solid):
         points, normals = _surface(leaf, count, rng)
-        inner, outer = holds(solid, points - step * normals), holds(solid, points + step * normals)
+        inner, outer = held(solid, points - step * normals), held(solid, points + step * normals)
         found.append(points[inner != outer])
     return np.concatenate(found)
 

@@ -12,6 +12,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 import decomp
+from benchmarks.membership import held
 from decomp.boundary.arcs import arrange
 from decomp.csg.primitives import Block, Cylinder
 from decomp.csg.solid import Solid, union
@@ -57,8 +58,8 @@ def two_sided(solid: Solid, feet: Array, ways: Array, size: float) -> Bools:
     """Whether points inside and outside are found at small distances from feet (n, 3)."""
     inner, outer = np.zeros(len(feet), bool), np.zeros(len(feet), bool)
     for way, reach in zip(ways, np.resize([1e-2, 3e-3, 1e-3, 1e-4], len(ways)), strict=True):
-        held = plain.holds(solid, feet + reach * size * way)
-        inner, outer = inner | held, outer | ~held
+        inside = held(solid, feet + reach * size * way)
+        inner, outer = inner | inside, outer | ~inside
     return inner & outer
 
 
@@ -69,7 +70,7 @@ def check(solid: Solid, rng: np.random.Generator) -> None:
     found = g.nearest(p)
     # the region is that of the expression, wherever a little step does not change it
     steps = 1e-9 * size * np.concatenate([np.eye(3), -np.eye(3)])
-    around = np.array([plain.holds(solid, p + step) for step in steps])
+    around = np.array([held(solid, p + step) for step in steps])
     clear = (around == around[0]).all(axis=0)
     assert (g.contains(p) == around[0])[clear].all()
     # feet stand where their distance says
@@ -82,7 +83,7 @@ def check(solid: Solid, rng: np.random.Generator) -> None:
             bad = ~two_sided(solid, feet, ways, size)
             for normal in normals:
                 for reach in (1e-2, 1e-4, 1e-6, 1e-8):
-                    sides = [plain.holds(solid, feet + s * reach * size * normal) for s in (1, -1)]
+                    sides = [held(solid, feet + s * reach * size * normal) for s in (1, -1)]
                     bad &= sides[0] == sides[1]
             feet, normals = feet[bad], [normal[bad] for normal in normals]
     assert not len(feet), feet[:3].tolist()
