@@ -72,31 +72,29 @@ def _before(by: Similarity, points: Array) -> Array:
 def _primitive(solid: Solid, points: Array) -> Bools:
     match solid:
         case Block(corner=corner, size=size):
-            return np.asarray(((points >= corner) & (points <= corner + size)).all(axis=1))
+            return np.asarray(((points > corner) & (points < corner + size)).all(axis=1))
         case Sphere(centre=centre, radius=radius):
-            return np.asarray(np.linalg.norm(points - centre, axis=1) <= radius)
+            return np.asarray(((points - centre) ** 2).sum(axis=1) < radius**2)
         case Cylinder(base=base, top=top, radius=radius):
             along, away = _about(points, base, top - base)
-            return (along >= 0) & (along <= np.linalg.norm(top - base)) & (away <= radius)
+            return (along > 0) & (along < 1) & (away < radius)
         case Cone(base=base, base_radius=first, top=top, top_radius=last):
             along, away = _about(points, base, top - base)
-            part = along / np.linalg.norm(top - base)
-            return (part >= 0) & (part <= 1) & (away <= first + part * (last - first))
+            return (along > 0) & (along < 1) & (away < first + along * (last - first))
         case Torus(centre=centre, axis=axis, major=major, minor=minor):
             along, away = _about(points, centre, axis)
-            return np.asarray(np.hypot(along, away - major) <= minor)
+            return np.asarray(np.hypot(along, away - major) < minor)
         case HalfSpace(point=point, normal=normal):
-            return np.asarray((points - point) @ normal <= 0)
+            return np.asarray((points - point) @ normal < 0)
         case InfiniteCylinder(point=point, axis=axis, radius=radius):
-            return np.asarray(_about(points, point, axis)[1] <= radius)
+            return np.asarray(_about(points, point, axis)[1] < radius)
         case InfiniteCone(apex=apex, axis=axis, half_angle=angle):
             along, away = _about(points, apex, axis)
-            return np.asarray(away <= along * tan(radians(angle)))
+            return np.asarray(away < along * tan(radians(angle)))
     raise TypeError(f"no membership for a {type(solid).__name__}")
 
 
 def _about(points: Array, start: Array, axis: Array) -> tuple[Array, Array]:
-    """Lengths (n,) along an axis, and distances from it."""
-    way = axis / np.linalg.norm(axis)
-    along = (points - start) @ way
-    return along, np.linalg.norm(points - start - along[:, None] * way, axis=1)
+    """Ways (n,) along an axis, in parts of its length, and distances from it."""
+    along = (points - start) @ axis / (axis @ axis)
+    return along, np.linalg.norm(points - start - along[:, None] * axis, axis=1)
