@@ -59,6 +59,10 @@ class UnevenError(GeometryError):
     """A sheet's footprint is too uneven for it to be drawn there."""
 
 
+class NoSheetError(GeometryError):
+    """No part of a drawing is a sheet: there is none, or it cannot be drawn in this way."""
+
+
 @dataclass(frozen=True, eq=False)
 class SheetPart:
     """One sheet as triangles.
@@ -159,7 +163,8 @@ class SheetMaker:
         surface = SheetSurface(self._incidence, pair, points, feet)
         drawing = self._domains.drawn(pair, points, feet, surface)
         local = np.searchsorted(used, segments)
-        after: tuple[type[GeometryError], ...] = (UnevenError, MissingCurveError, MergedError)
+        after: tuple[type[GeometryError], ...]
+        after = (UnevenError, MissingCurveError, MergedError, NoSheetError)
         if self._finest:
             after = (*after, CrossingError)
 
@@ -171,7 +176,13 @@ class SheetMaker:
             for other in self._domains.others(pair, points, feet):
                 yield way("drawn otherwise", other, *after, CrossingError, SparseError)
 
-        return first_of(ways())
+        try:
+            return first_of(ways())
+        except GeometryError as error:
+            kinds = {type(error).__name__, *(each.kind for each in error.tries)}
+            if NoSheetError.__name__ in kinds:
+                return []  # in no drawing is there one
+            raise
 
     def _drawn(
         self,
@@ -186,6 +197,8 @@ class SheetMaker:
         draft = _Draft(pair, used, points, drawing.uv, segments, drawing.domain, drawing.column)
         self._check_crossings(draft)
         found, keep = self._triangulated(draft, surface)
+        if not keep:
+            raise NoSheetError(f"no sheet is seen near {place(points[0])}")
         return self._parts(draft, surface, found, keep)
 
     def _check_crossings(self, draft: _Draft) -> None:
