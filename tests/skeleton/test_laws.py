@@ -21,6 +21,7 @@ SCALE = 0.25
 FINER = {
     "ball on a corner": 1e-4,
     "boss at a ledge": 2e-5,
+    "boss on a wall": 2e-5,
     "crossing blocks": 1e-4,
     "ridge": 2e-5,
     "slot": 2e-5,
@@ -30,7 +31,6 @@ FINER = {
 NOT_MOVED = {
     "bar in a wall",
     "bored corner",
-    "boss on a wall",
     "bulge",
     "narrow joint",
     "offset tee",
