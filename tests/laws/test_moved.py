@@ -73,8 +73,8 @@ def flange() -> Solid:
 
 def rod() -> Solid:
     """A rod through the edge of a block, which stands out below by its radius."""
-    block = decomp.Block((0, 0, 0), (5, 4, 3), name="block")
-    return block | decomp.Cylinder((0.2, 2, -0.6), (0.2, 2, 2.5), 0.6, name="rod")
+    block = decomp.Block((0, 0, 0), (5, 3.75, 2.75), name="block")
+    return block | decomp.Cylinder((0.125, 1.875, -0.625), (0.125, 1.875, 2.25), 0.625, name="rod")
 
 
 def ball() -> Solid:
