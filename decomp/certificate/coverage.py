@@ -1,4 +1,8 @@
-"""Is anything missing? From random boundary points, maximal balls must end on the skeleton."""
+"""Is anything missing? From random boundary points, maximal balls must end on the skeleton.
+
+Sheets between two reentrant edges or vertices have no feet inside faces: they are looked for by
+balls that touch the edges, in random directions between the normals of their faces.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +10,21 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from decomp.boundary.topology import Convexity
 from decomp.certificate.distance import TriangleTree, triangle_distance, triangle_tree
 from decomp.certificate.evidence import Evidence, Worst
 from decomp.sites.site import SiteKind
 from decomp.tracing.balls import inscribed_balls
+from decomp.tracing.edge_seeds import EdgeFan
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 LEAST = 20
-"""Balls on the smallest of faces."""
+"""Balls on the smallest of faces and edges."""
+ON_EDGES = 0.1
+"""So many balls on edges for each one on faces."""
+BESIDE = 1e-2
+"""A foot off its point by no more than this part of the step is that point."""
 
 STEP = 1e-7
 """How far from the boundary it is asked which face is nearest, relative to the region's size."""
@@ -24,13 +34,14 @@ def coverage(evidence: Evidence, balls: int, seed: int) -> Worst:
     """The largest distance from the centre of a maximal ball to the skeleton.
 
     Args:
-        balls: about how many, shared out by area, with some on every face.
+        balls: about how many, shared out by area, with some on every face and reentrant edge.
         seed: of the random numbers.
 
     Raises:
         GeometryError: a ball does not come to rest.
     """
-    parts = list(boundary_samples(evidence, balls, np.random.default_rng(seed)))
+    rng = np.random.default_rng(seed)
+    parts = [*boundary_samples(evidence, balls, rng), *edge_samples(evidence, balls, rng)]
     points = np.concatenate([points for points, _ in parts])
     inward = np.concatenate([inward for _, inward in parts])
     found = inscribed_balls(evidence.index, evidence.boundary, evidence.region, points, inward)
@@ -73,6 +84,24 @@ def boundary_samples(
         inward = -face.outward * carrier.normal(points)
         inside = _in_face(evidence, number, points, inward)
         yield points[inside], inward[inside]
+
+
+def edge_samples(
+    evidence: Evidence, count: int, rng: np.random.Generator
+) -> Iterator[tuple[Array, Array]]:
+    """Random points (k, 3) of each reentrant edge, with directions (k, 3) between its normals."""
+    boundary = evidence.boundary
+    edges = [edge for edge in boundary.edges if edge.convexity is Convexity.REENTRANT]
+    whole = sum(edge.length for edge in edges)
+    for edge in edges:
+        share = max(LEAST, round(ON_EDGES * count * edge.length / whole))
+        points, inward = EdgeFan(boundary, edge).place(rng.random((share, 2)))
+        step = _step(evidence)
+        queries = region_queries(evidence.index, evidence.region)
+        found = queries.nearest(points + step * inward)
+        # beside the ends of an edge another one may be nearer
+        own = (found.site >= 0) & (norm(found.foot - points) <= BESIDE * step)
+        yield points[own], inward[own]
 
 
 def random_points(points: Array, triangles: Ints, count: int, rng: np.random.Generator) -> Array:

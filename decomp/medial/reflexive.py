@@ -71,6 +71,14 @@ class ReflexivePart:
         """0 for a point, 1 for a curve."""
         return int(self.end > self.start)
 
+    def gap(self, point: Array) -> float:
+        """The distance of a point (3,) close to it from it."""
+        nearest = self.ends
+        if self.dimension and self.locus is not None:
+            at = np.clip(self.locus.parameter(point[None]), self.start, self.end)
+            nearest = np.concatenate([nearest, self.locus.point(at)])
+        return float(norm(nearest - point).min())
+
     @property
     def closed(self) -> bool:
         """Whether it is the whole of a closed locus."""
@@ -101,11 +109,13 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
 
 
 def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePart]:
-    """All parts, but of points in one place (a ball's centre is on its edges' axes) the first."""
-    kept: list[ReflexivePart] = []
+    """All curves, and of points in one place the first, unless a curve holds it.
+
+    A ball's centre is on its edges' axes, and a rod's axis is that of its end's edge: both find it.
+    """
+    kept = [part for part in parts if part.dimension]
     for part in parts:
-        points = [other.ends[0] for other in kept if other.dimension == 0]
-        if part.dimension or all(float(norm(part.ends[0] - p)) > within for p in points):
+        if not part.dimension and all(each.gap(part.ends[0]) > within for each in kept):
             kept.append(part)
     return kept
 

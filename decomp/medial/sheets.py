@@ -33,6 +33,10 @@ from decomp.sites import SiteIndex
 from decomp.vectors import Array, Bools, Ints
 
 
+class NoSheetError(GeometryError):
+    """No part of a drawing is a sheet: there is none, or it cannot be drawn in this way."""
+
+
 class SheetMaker:
     """Triangulates the sheets of one region over given vertices.
 
@@ -90,7 +94,8 @@ class SheetMaker:
         surface = SheetSurface(self._incidence, pair, points, feet)
         drawing = self._domains.drawn(pair, points, feet, surface)
         local = np.searchsorted(used, segments)
-        after: tuple[type[GeometryError], ...] = (UnevenError, MissingCurveError, MergedError)
+        after: tuple[type[GeometryError], ...]
+        after = (UnevenError, MissingCurveError, MergedError, NoSheetError)
         if self._finest:
             after = (*after, CrossingError)
 
@@ -103,7 +108,13 @@ class SheetMaker:
             for other in self._domains.others(pair, points, feet):
                 yield way("drawn otherwise", other, *after, CrossingError, SparseError)
 
-        return first_of(ways())
+        try:
+            return first_of(ways())
+        except GeometryError as error:
+            kinds = {type(error).__name__, *(each.kind for each in error.tries)}
+            if NoSheetError.__name__ in kinds:
+                return []  # in no drawing is there one
+            raise
 
     def _names(self, pair: tuple[int, int]) -> tuple[str, ...]:
         return tuple(self._incidence.sites[site].name for site in pair)
@@ -124,6 +135,8 @@ class SheetMaker:
         """The sheets between their borders as they are drawn."""
         curves.check_crossings()
         found, kept = curves.triangulated(lambda found: self._kept(pair, found, curves, surface))
+        if not kept:
+            raise NoSheetError("no sheet is seen near {at}", curves.sites, curves.points[0])
         if len(curves.points) > len(curves.vertex):
             feet = self._incidence.feet(pair, curves.points)
             surface = SheetSurface(self._incidence, pair, curves.points, feet)

@@ -71,11 +71,25 @@ def flange() -> Solid:
     return (disc | hub) - bore - hole.polar_copies((0, 0, 1), 4)
 
 
+def rod() -> Solid:
+    """A rod through the edge of a block, which stands out below by its radius."""
+    block = decomp.Block((0, 0, 0), (5, 3.75, 2.75), name="block")
+    return block | decomp.Cylinder((0.125, 1.875, -0.625), (0.125, 1.875, 2.25), 0.625, name="rod")
+
+
+def ball() -> Solid:
+    """A ball through three faces of a block at its corner."""
+    block = decomp.Block((0, 0, 0), (5, 4, 3), name="block")
+    return block | decomp.Sphere((4.75, 3.6, 2.75), 0.9, name="ball")
+
+
 OWN: dict[str, Callable[[], Solid]] = {
     "plate with a bore": lambda: plate(1.5),
     "plate with a wide bore": lambda: plate(2.25),
     "angle with a rib": bracket,
     "flange": flange,
+    "rod through an edge": rod,
+    "ball through a corner": ball,
 }
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from decomp.certificate.certificate import shortcomings
 from decomp.certificate.coverage import coverage
 from decomp.certificate.evidence import Evidence
 from decomp.complex.model import PatchKind
+from decomp.sites.site import SiteKind
 from tests.corpus.files import FILES
 from tests.skeleton.computed import TOLERANCE, param, skeleton_of, source_of
 from tests.skeleton.machine_parts import PARTS
@@ -58,6 +61,21 @@ def test_coverage_by_other_balls(name: str) -> None:
     skeleton = skeleton_of(name)
     found = coverage(Evidence.of(skeleton, geometry.index, 0), 20_000, seed=7)
     assert found.value <= 2 * TOLERANCE
+
+
+@pytest.mark.parametrize("name", ["square boss", "ball on a corner"])
+def test_every_missing_sheet_is_seen(name: str) -> None:
+    """Sheets between two reentrant edges too, which no ball that touches a face comes to."""
+    geometry = decomp.Geometry(source_of(name))
+    evidence = Evidence.of(skeleton_of(name), geometry.index, 0)
+    between_edges = 0
+    for sheet in evidence.sheets:
+        if sheet.area < 5e-3 * geometry.diagonal**2:
+            continue
+        between_edges += all(geometry.sites[k].kind is not SiteKind.FACE for k in sheet.sites)
+        rest = tuple(other for other in evidence.sheets if other is not sheet)
+        assert coverage(replace(evidence, sheets=rest), 5_000, seed=1).value > 2 * TOLERANCE
+    assert between_edges >= (name == "ball on a corner")
 
 
 @pytest.mark.parametrize("name", ["block", "bracket", "blind hole", "fichera", "cylinder"])
