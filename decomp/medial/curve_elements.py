@@ -16,10 +16,11 @@ from decomp.medial.normal_balls import solve_radius, try_radius
 from decomp.medial.normal_curves import NormalCurve
 from decomp.medial.reflexive_loci import Locus
 from decomp.tracing.equidistance import Equidistant, equidistant
-from decomp.vectors import Array, Bools, Ints, nearest_rows, norm
+from decomp.vectors import Array, Bools, Ints, dot, nearest_rows, norm
 
 MERGED = 1e-3
 """Feet on one site nearer than this part of the radius are not told apart."""
+TINY = 1e-300
 LEAST = 0.1
 """Radii along a trim are looked for from this part of the nearest known one at least."""
 
@@ -48,8 +49,26 @@ class SeamCurve:
         return place_seams([self], np.zeros(len(points), dtype=np.int64), points)
 
     def feet_near(self, points: Array) -> Array:
-        """The feet (k, m, 3) of the known points nearest to given ones (k, 3)."""
-        return np.asarray(self.feet[self._apart][nearest_rows(self.points[self._apart], points)])
+        """The feet (k, m, 3) of known points next to given ones (k, 3).
+
+        Two feet on one site run together with the root of the way to where they meet, and one of
+        them is not found from the other's side: they are read off between known points.
+        """
+        known, feet = self.points[self._apart], self.feet[self._apart]
+        rows = nearest_rows(known, points)
+        if len(known) < 2 or len(set(self.sites)) == len(self.sites):
+            return np.asarray(feet[rows])
+        found, least = np.array(feet[rows]), np.full(len(points), np.inf)
+        for step in (-1, 0):
+            first = np.clip(rows + step, 0, len(known) - 2)
+            start, way = known[first], known[first + 1] - known[first]
+            part = np.clip(dot(points - start, way) / np.maximum(dot(way, way), TINY), 0.0, 1.0)
+            off = norm(points - start - part[:, None] * way)
+            nearer = off < least
+            part = part[:, None, None]
+            between = (1 - part) * feet[first] + part * feet[first + 1]
+            found[nearer], least[nearer] = between[nearer], off[nearer]
+        return found
 
     def feet_at(self, points: Array) -> Array:
         """The feet (k, m, 3) of points (k, 3) on the seam."""

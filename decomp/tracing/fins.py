@@ -26,6 +26,9 @@ FEWEST = 0.01
 """Gaps narrower than this part of the radius say nothing."""
 FITTED = 8
 ROUNDS = 12
+STEPS = (1e-4, 1e-5, 1e-6)
+"""Steps back, in parts of the radius, that tell how fast a gap closes: the shorter ones where feet
+run together faster than the longer ones can tell."""
 FARTHEST = 0.2
 """The end is no farther from the last point known than this part of the radius."""
 
@@ -99,8 +102,7 @@ def _read_off(points: SeamPoints, wide: State, pair: tuple[int, int]) -> list[St
     # the squared gap falls to `low` of its value over the part 1 - low of the way
     low = (NARROW * wide.radius / _gap(wide, pair)) ** 2
     parts = (1 - np.cos(np.pi * (np.arange(FITTED) + 0.5) / FITTED)) / 2 * (1 - low)
-    states = [_ahead(points, wide, part * length) for part in parts]
-    good = [s for s in states if s is not None and _gap(s, pair) > FEWEST * s.radius]
+    good = [s for s in _walk(points, wide, parts * length) if _gap(s, pair) > FEWEST * s.radius]
     if len(good) < FITTED:
         return None
     end = _balanced(points, _end(good, pair), pair)
@@ -118,14 +120,30 @@ def _ahead(points: SeamPoints, state: State, length: float) -> State | None:
     return points.state(state.sites, spot, state.feet, state.tangent)
 
 
+def _walk(points: SeamPoints, state: State, lengths: Array) -> list[State]:
+    """Points of a seam at lengths (k,) ahead, ascending, each found from the one before.
+
+    Feet that run together fast cannot be found from far.
+    """
+    found: list[State] = []
+    here, at = state, 0.0
+    for length in lengths.tolist():
+        ahead = _ahead(points, here, length - at)
+        if ahead is not None:
+            found.append(ahead)
+            here, at = ahead, length
+    return found
+
+
 def _length(points: SeamPoints, state: State, pair: tuple[int, int]) -> float | None:
     """How far ahead the squared gap would vanish if it went on as it has changed."""
-    step = 1e-4 * state.radius
-    before = _ahead(points, state, -step)
-    if before is None:
-        return None
-    change = (_gap(state, pair) ** 2 - _gap(before, pair) ** 2) / step
-    return -(_gap(state, pair) ** 2) / change if change < 0 else None
+    for part in STEPS:
+        step = part * state.radius
+        before = _ahead(points, state, -step)
+        if before is not None:
+            change = (_gap(state, pair) ** 2 - _gap(before, pair) ** 2) / step
+            return -(_gap(state, pair) ** 2) / change if change < 0 else None
+    return None
 
 
 def _at_gap(points: SeamPoints, state: State, pair: tuple[int, int], gap: float) -> State | None:

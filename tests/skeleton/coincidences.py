@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin, pi, sqrt
+from math import acos, asin, pi, sqrt
 
 from scipy.integrate import quad  # type: ignore[import-untyped]
 
-from decomp.csg.primitives import Block, Cylinder, HalfSpace, Sphere, Torus
+from decomp.csg.primitives import Block, Cone, Cylinder, HalfSpace, Sphere, Torus
 from decomp.csg.solid import Solid
 from tests.skeleton.machine_parts import ROUND, rounded_box
 
@@ -139,6 +139,16 @@ def turned_rounded_box() -> Solid:
     return rounded_box().rotate((0.3, -0.31, -0.11), 78.7)
 
 
+def cone_on_an_edge() -> Solid:
+    """Where the block's edge enters the cone two trims lead to one node, each in one chord."""
+    return Block((0, 0, 0), (4.4, 4.4, 3.5)) | Cone((4.3, 0.7, 1.3), 1.15, (4.3, 7.4, 1.3), 0.46)
+
+
+def sunk_roller() -> Solid:
+    """A seam would come down to the roller's axis, but that is nearer to its end there."""
+    return Block((0, 0, 0), (4, 4.7, 4.3)) | Cylinder((2, -0.8, 4.7), (2, 6.1, 4.7), 1.54)
+
+
 def ball_in_wide_air() -> dict[str, Solid]:
     """The ball's volume asks for chords a thousand times shorter than the air's."""
     ball = Sphere((0, 0, 0), 1, name="ball")
@@ -189,6 +199,20 @@ def _branch_volume(outer: float, inner: float) -> float:
     return float(quad(depth, -inner, inner, epsabs=1e-12, epsrel=1e-13)[0])
 
 
+def _segment(radius: float, off: float) -> float:
+    """The area of a circle beyond a chord that far from its centre."""
+    return radius**2 * acos(off / radius) - off * sqrt(radius**2 - off**2)
+
+
+def _coned_volume() -> float:
+    def radius(y: float) -> float:
+        return 1.15 - 0.69 * (y - 0.7) / 6.7
+
+    r = radius(4.4)
+    beside = float(quad(lambda y: _segment(radius(y), 0.1), 0.7, 4.4, epsabs=1e-13)[0])
+    return 4.4 * 4.4 * 3.5 + beside + pi * 3 * (r * r + 0.46 * r + 0.46**2) / 3
+
+
 COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
@@ -205,6 +229,10 @@ COINCIDENCES: dict[str, Coincidence] = {
     "keyed shaft": Coincidence(keyed_shaft, (_keyed_volume(),), (1,)),
     "rounded block with pocket": Coincidence(
         rounded_block_with_pocket, (1920 - (16 - 4 * pi) * 16 - 96,), (1,)
+    ),
+    "cone on an edge": Coincidence(cone_on_an_edge, (_coned_volume(),), (1,)),
+    "sunk roller": Coincidence(
+        sunk_roller, (4 * 4.7 * 4.3 + 6.9 * pi * 1.54**2 - 4.7 * _segment(1.54, 0.4),), (1,)
     ),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),

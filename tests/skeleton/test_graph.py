@@ -200,3 +200,18 @@ def test_similar_solids_have_similar_graphs() -> None:
     assert sorted(10 * s.length for s in moved.seams) == pytest.approx(
         sorted(s.length for s in plain.seams), rel=1e-3
     )
+
+
+def test_feet_that_run_together_fast_are_followed_to_where_they_meet() -> None:
+    """Where a slanted rod leaves a block, balls that touch its ellipse twice osculate it soon."""
+    rod = decomp.Cylinder((4, 2.3, 2.1), (-2.7, 3.7, 1.6), 1.07)
+    _, graph = graph_of(decomp.Block((0, 0, 0), (3, 5, 3)) | rod)
+    met = 0
+    for seam in graph.seams:
+        for k in (0, -1):
+            gaps = norm(seam.feet[k][:, None] - seam.feet[k][None])
+            nearest = gaps[np.triu_indices(len(gaps), 1)].min()
+            met += bool(nearest == 0 and len(set(seam.sites[k])) < len(seam.sites[k]))
+            if seam.sites[k] and nearest < 1e-2:
+                assert nearest == 0  # none ends before
+    assert met == 3
