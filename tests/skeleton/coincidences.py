@@ -60,6 +60,11 @@ def flattened_rod() -> dict[str, Solid]:
     return {"rod": rod, "air": Block((-400, -400, -400), (800, 800, 800), name="far") - rod}
 
 
+def ball_through_faces() -> Solid:
+    """Seams come to the ball's centre, where rounding tells on which side of it they end."""
+    return Block((-3, -3, -3), (6, 6, 6)) | Sphere((0, 0, 0), 3.75)
+
+
 def sunk_plate() -> Solid:
     """The hole is as deep as its radius, and its bottom as thick: contacts tie in a point."""
     return Block((0, 0, 0), (60, 48, 8)) - Cylinder((40, 12, 4), (40, 12, 9), 4)
@@ -154,6 +159,10 @@ COINCIDENCES: dict[str, Coincidence] = {
     "angle in wide air": Coincidence(angle_in_wide_air, (4.5e6 * pi - 32,), (2,)),
     "flattened rod": Coincidence(
         flattened_rod, (_flattened_volume(), 800.0**3 - _flattened_volume()), (1, 2)
+    ),
+    # caps of height 0.75
+    "ball through faces": Coincidence(
+        ball_through_faces, (216 + 6 * pi * 0.75**2 * (3.75 - 0.25),), (1,)
     ),
     "sunk plate": Coincidence(sunk_plate, (60 * 48 * 8 - 64 * pi,), (1,)),
     "chisel": Coincidence(chisel, (_chisel_volume(),), (1,)),
