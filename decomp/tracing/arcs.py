@@ -246,6 +246,10 @@ class Arcs:
             reach = _turned(start, axis)
             seen = self._queries.nearest(point + TOWARDS * reach).distance
             true = np.abs(seen - (1 - TOWARDS) * touching.radius) <= ON_BOUNDARY * self._size
+            # a little beyond an arc's end the boundary is as near but for the square of the way
+            blur = np.sqrt(2 * ON_BOUNDARY * self._size * touching.radius * (1 - TOWARDS) / TOWARDS)
+            ends = touching.feet - point
+            true &= norm(reach[:, None] - ends[None]).min(axis=1) > blur
             found.append(-reach[true] / touching.radius)
         return np.concatenate([np.empty((0, 3)), *found])
 

@@ -98,6 +98,7 @@ def missed_seams(
     unknown = grower.unknown(seeds, seams)
     return np.array([s.point for s in grower.settled(seeds, unknown)]).reshape(-1, 3)
 
+
 EARLIER = 1e-4
 """How far before its end, as a part of the radius, a seam into a ball's centre is looked at."""
 
