@@ -18,6 +18,7 @@ from decomp.complex.errors_of import (
     thorough_errors,
     triangle_errors,
 )
+from decomp.complex.halfway import halfway
 from decomp.complex.model import Complex
 from decomp.complex.refine_elements import Elements
 from decomp.errors import GeometryError
@@ -247,8 +248,7 @@ class Mesh:
             np.maximum.at(edges.error, which, error / allowed)
             return
         error, middle = edge_errors(self.elements, element, ends, allowed)
-        length = norm(ends[:, 1] - ends[:, 0])
-        self._check_short(element, ends.mean(axis=1), error, length)
+        self._shorten(element, ends, error, middle)
         last = np.append(which[1:] != which[:-1], True)
         edges.middle[which[last]] = middle[last]
         curve = np.flatnonzero(element >= self.elements.first_curve)
@@ -278,14 +278,25 @@ class Mesh:
         self.checked[near] = True
         return bool((self.error > 1.0).any() or (edges.error > 1.0).any())
 
-    def _check_short(self, element: Ints, points: Array, moved: Array, length: Array) -> None:
-        """An element must not place a chord's midpoint farther away than the chord is long."""
-        far = np.flatnonzero(moved > np.maximum(length, TOLERANCE * self.diagonal))
-        if len(far):
+    def _shorten(self, element: Ints, ends: Array, moved: Array, middle: Array) -> None:
+        """Replace midpoints placed farther away than their chords are long by ways along surfaces.
+
+        Raises:
+            GeometryError: there is none.
+        """
+        length = norm(ends[:, 1] - ends[:, 0])
+        far = moved > np.maximum(length, TOLERANCE * self.diagonal)
+        rows = np.flatnonzero(far & (element < self.elements.first_curve))
+        if len(rows):
+            way = halfway(self.elements, element[rows], ends[rows])
+            good = ~np.isnan(way).any(axis=1)
+            middle[rows[good]], far[rows[good]] = way[good], False
+        if far.any():
+            first = int(np.argmax(far))
             raise GeometryError(
-                f"{self.elements.names[int(element[far[0]])]} places {{at}} "
-                "farther away than its own vertices are",
-                at=points[far[0]],
+                f"{self.elements.names[int(element[first])]} places {{at}} farther away than its "
+                "own vertices are",
+                at=ends[first].mean(axis=0),
             )
 
     # --- changing ---------------------------------------------------------------------------

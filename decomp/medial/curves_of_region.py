@@ -197,7 +197,7 @@ def _trim_piece(
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
     balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
-    round_site = _locus_site(incidence, over.sites, balls.centre)
+    round_site = _locus_site(incidence, over.touching, balls.centre)
     if round_site is not None:
         return partial(_locus_radius, incidence, over, round_site)
     far = trim.far[0]
@@ -250,7 +250,7 @@ def _face_radius(incidence: Incidence, face: int, foot: Array) -> float:
     return float(inner_radius(carrier, it.outward, foot)[0])
 
 
-def _locus_site(incidence: Incidence, sites: tuple[int, int], centres: Array) -> int | None:
+def _locus_site(incidence: Incidence, sites: tuple[int, ...], centres: Array) -> int | None:
     """The site that is touched on whose reflexive locus most of some balls' centres (k, 3) are.
 
     Not all: where the site is bent most, a ball can come to rest a little late.

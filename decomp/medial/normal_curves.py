@@ -45,6 +45,11 @@ class NormalCurve(ABC):
     closed: bool
     sites: tuple[int, int]
 
+    @property
+    def touching(self) -> tuple[int, ...]:
+        """All sites that touch along it: at a vertex more than one edge can have its normals."""
+        return self.sites
+
     @abstractmethod
     def feet(self, s: Array) -> Array:
         """Boundary points (k, 3) at parameters (k,)."""
@@ -205,6 +210,12 @@ class VertexNormals(NormalCurve):
     vertex: Array
     first: Array
     second: Array
+    others: tuple[int, ...] = ()
+    """Edges that go on smoothly beyond the vertex."""
+
+    @property
+    def touching(self) -> tuple[int, ...]:
+        return (*self.sites, *self.others)
 
     def feet(self, s: Array) -> Array:
         return np.broadcast_to(self.vertex, (*np.shape(s), 3)).copy()
@@ -272,23 +283,34 @@ def normal_curves(incidence: Incidence) -> list[NormalCurve]:
 
 def _fans(incidence: Incidence, number: int, site: int) -> list[NormalCurve]:
     vertex = incidence.boundary.vertices[number]
-    found: list[NormalCurve] = []
+    between: list[tuple[int, Array, Array]] = []
     for k in vertex.edges:
         edge = incidence.boundary.edges[k]
-        if edge.convexity is not Convexity.REENTRANT:
-            continue
-        a, b = (incidence.inward(f, vertex.point[None])[0] for f in edge.faces)
+        if edge.convexity is Convexity.REENTRANT:
+            a, b = (incidence.inward(f, vertex.point[None])[0] for f in edge.faces)
+            between.append((k, a, b))
+    found: list[NormalCurve] = []
+    for k, a, b in between:
         axis = incidence.tangent(k, vertex.point)
         angle = float(angle_between(a, b, axis))
         if angle < 0:
             axis, angle = -axis, -angle
         if angle <= ANGLE:
             continue
-        fan = VertexNormals(
-            0.0, angle, False, (site, incidence.edge_site[k]), vertex.point, a, cross(axis, a)
+        others = tuple(
+            incidence.edge_site[m] for m, c, d in between if m != k and _same(a, b, c, d)
         )
-        found.append(fan)
+        ends = (site, incidence.edge_site[k])
+        second = cross(axis, a)
+        found.append(VertexNormals(0.0, angle, False, ends, vertex.point, a, second, others))
     return found
+
+
+def _same(a: Array, b: Array, c: Array, d: Array) -> bool:
+    """Whether two pairs of normals are the same two."""
+    straight = max(float(norm(a - c)), float(norm(b - d)))
+    crossed = max(float(norm(a - d)), float(norm(b - c)))
+    return min(straight, crossed) <= ANGLE
 
 
 def reflex_rays(incidence: Incidence) -> list[tuple[int, int, Array]]:

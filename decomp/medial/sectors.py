@@ -26,8 +26,10 @@ RING = 360
 REACH = 2e-3
 """Radius of the ring, as a part of the ball's radius and of the piece's length."""
 JUMP = 0.02
-"""Feet of neighbouring ring points that are farther apart than this part of the ball's radius
-belong to two contacts, unless they move on steadily."""
+"""Feet of neighbouring ring points that are farther apart than this part of the ball's radius, or
+of all feet's spread where this is less, belong to two contacts, unless they move on steadily."""
+ONE_FOOT = 1e-6
+"""Feet closer to each other than this part of the radius are one."""
 HALVINGS = 12
 
 Pair = tuple[int, int]
@@ -99,7 +101,10 @@ def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pa
     sites, feet = at(angles)
     pairs = []
     step = norm(np.roll(feet, -1, axis=0) - feet)
-    for k in np.flatnonzero(step > JUMP * radius):
+    # seen from far away all feet are close to each other
+    spread = float(norm(feet - feet.mean(axis=0)).max())
+    jump = JUMP * min(radius, max(spread, ONE_FOOT * radius))
+    for k in np.flatnonzero(step > jump):
         low, high = angles[k], angles[k] + 2 * np.pi / RING
         a, b = (sites[k], feet[k]), (sites[(k + 1) % RING], feet[(k + 1) % RING])
         for _ in range(HALVINGS):
@@ -109,6 +114,6 @@ def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pa
                 low, a = middle_angle, (site, foot)
             else:
                 high, b = middle_angle, (site, foot)
-        if float(norm(a[1] - b[1])) > JUMP * radius:
+        if float(norm(a[1] - b[1])) > jump:
             pairs.append(_pair(int(a[0]), int(b[0])))
     return tuple(pairs)

@@ -154,7 +154,7 @@ class TrimScanner:
         def gap(s: Array) -> Array:
             q, n = curve.feet(s), curve.directions(s)
             balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
-            return locus_gap(incidence.boundary, incidence.sites, curve.sites, balls.centre)
+            return locus_gap(incidence.boundary, incidence.sites, curve.touching, balls.centre)
 
         stops = touches(self._size, known, gap)
         if len(stops) == 1 and curve.closed and piece.end - piece.start == period:
@@ -219,7 +219,7 @@ class TrimScanner:
         own = (balls.site < 0) | (norm(hits - feet) <= crept)
         stops = np.cumsum([0, *(len(s) for s in parameters)]).tolist()
         for curve, (a, b) in zip(curves, pairwise(stops), strict=True):
-            own[a:b] |= on_locus(incidence, curve.sites, balls.centre[a:b])
+            own[a:b] |= on_locus(incidence, curve.touching, balls.centre[a:b])
             own[a:b] |= self._past_locus(curve.sites, feet[a:b], balls.radius[a:b])
         away = balls.centre - hits
         length = norm(away)

@@ -116,18 +116,21 @@ class Arcs:
         return found
 
     def centre(self, last: State) -> Array | None:
-        """The centre of a ball's face that a seam has come to, None if it has come to none.
+        """The centre of a ball's faces that a seam has come to, None if it has come to none.
 
-        Close to it all edges of the face are as far but for rounding.
+        Close to it all edges of these faces are as far but for rounding.
 
         Args:
             last: of the seam.
         """
+        groups: dict[tuple[int, int], set[int]] = {}
         for number, face in self._balls.items():
-            carrier = self._boundary.carriers[face.carrier]
-            gap = float(reflexive_gap(carrier, face.outward, last.point[None])[0])
-            of_face = all(number in self._faces_at(site) for site in last.sites)
-            if gap <= NEAR * self._size and of_face:
+            groups.setdefault((face.carrier, face.outward), set()).add(number)
+        for (number, outward), faces in groups.items():
+            carrier = self._boundary.carriers[number]
+            gap = float(reflexive_gap(carrier, outward, last.point[None])[0])
+            of_faces = all(faces & set(self._faces_at(site)) for site in last.sites)
+            if gap <= NEAR * self._size and of_faces:
                 assert isinstance(carrier, Sphere)
                 return carrier.centre
         return None
@@ -241,6 +244,10 @@ class Arcs:
             reach = _turned(start, axis)
             seen = self._queries.nearest(point + TOWARDS * reach).distance
             true = np.abs(seen - (1 - TOWARDS) * touching.radius) <= ON_BOUNDARY * self._size
+            # a little beyond an arc's end the boundary is as near but for the square of the way
+            blur = np.sqrt(2 * ON_BOUNDARY * self._size * touching.radius * (1 - TOWARDS) / TOWARDS)
+            ends = touching.feet - point
+            true &= norm(reach[:, None] - ends[None]).min(axis=1) > blur
             found.append(-reach[true] / touching.radius)
         return np.concatenate([np.empty((0, 3)), *found])
 

@@ -18,7 +18,7 @@ from decomp.tracing.continuing import continued, value_at
 from decomp.tracing.equidistance import balanced
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
-from decomp.vectors import norm
+from decomp.vectors import Array, norm
 
 WIDE, NARROW = 0.15, 0.04
 """Gaps, relative to the radius, from the widest to the narrowest at which points are read off."""

@@ -101,6 +101,10 @@ def missed_seams(
     return np.array([s.point for s in grower.settled(seeds, unknown)]).reshape(-1, 3)
 
 
+EARLIER = 1e-4
+"""How far before its end, as a part of the radius, a seam into a ball's centre is looked at."""
+
+
 class _Grower:
     """Grows the graph from nodes whose rays have not been followed yet."""
 
@@ -281,8 +285,26 @@ class _Grower:
             node = self._nodes.end(last)
         else:
             node = self._nodes.junction(last, traced.intruder, traced.foot)
+        if self._nodes.is_centre(last):
+            last = self._before(traced)
         self._nodes.take(node, last, number)
         return node
+
+    def _before(self, traced: Traced) -> State:
+        """The last point of a seam but a little earlier.
+
+        At a ball's centre, from which whole circles are as near, rounding tells on which side of it
+        the seam ends, and so whether its feet are those ahead of it.
+        """
+        last, run = traced.last, traced.runs[-1]
+        away = norm(run.points - last.point)
+        clear = np.flatnonzero(away > EARLIER * last.radius)
+        if not len(clear):
+            return last
+        feet = run.feet[clear[-1]]
+        earlier = last.point - EARLIER * last.radius * last.tangent
+        state = self._points.state(run.sites, earlier, feet, last.tangent)
+        return last if state is None else state
 
     def _between(self, traced: Traced, ends: tuple[int, int]) -> Seam:
         first, last = (self._nodes.nodes[k] for k in ends)

@@ -61,6 +61,19 @@ def flattened_rod() -> dict[str, Solid]:
     return {"rod": rod, "air": Block((-400, -400, -400), (800, 800, 800), name="far") - rod}
 
 
+def ball_through_faces() -> Solid:
+    """Seams come to the ball's centre, where rounding tells on which side of it they end."""
+    return Block((-3, -3, -3), (6, 6, 6)) | Sphere((0, 0, 0), 3.75)
+
+
+def slotted_plate_in_air() -> dict[str, Solid]:
+    """The slot's round end goes on smoothly into its sides; its axis reaches far into the air."""
+    slot = Block((30, 4, -1), (12, 4, 3)) | Cylinder((30, 6, -1), (30, 6, 2), 2)
+    plate = Block((0, 0, 0), (40, 12, 1), name="plate") - slot
+    air = Block((-300, -300, -300), (600, 600, 600), name="far") - plate
+    return {"plate": plate, "air": air}
+
+
 def sunk_plate() -> Solid:
     """The hole is as deep as its radius, and its bottom as thick: contacts tie in a point."""
     return Block((0, 0, 0), (60, 48, 8)) - Cylinder((40, 12, 4), (40, 12, 9), 4)
@@ -220,6 +233,13 @@ COINCIDENCES: dict[str, Coincidence] = {
     "angle in wide air": Coincidence(angle_in_wide_air, (4.5e6 * pi - 32,), (2,)),
     "flattened rod": Coincidence(
         flattened_rod, (_flattened_volume(), 800.0**3 - _flattened_volume()), (1, 2)
+    ),
+    # caps of height 0.75
+    "ball through faces": Coincidence(
+        ball_through_faces, (216 + 6 * pi * 0.75**2 * (3.75 - 0.25),), (1,)
+    ),
+    "slotted plate in air": Coincidence(
+        slotted_plate_in_air, (440 - 2 * pi, 600.0**3 - 440 + 2 * pi), (1, 2)
     ),
     "sunk plate": Coincidence(sunk_plate, (60 * 48 * 8 - 64 * pi,), (1,)),
     "chisel": Coincidence(chisel, (_chisel_volume(),), (1,)),
