@@ -7,17 +7,19 @@ Between two changes lies one piece of trim.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
 from decomp.boundary.topology import Convexity
+from decomp.errors import GeometryError
 from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.locus_touches import touches
-from decomp.medial.normal_balls import solve_radius, try_radius
+from decomp.medial.normal_balls import try_radius
 from decomp.medial.normal_curves import NormalCurve
+from decomp.medial.trim_changes import change
 from decomp.medial.trim_samples import (
     Contact,
     TrimSample,
@@ -180,19 +182,16 @@ class TrimScanner:
         ends = [*(low for low, _ in cuts), last]
         edges = [curve.start, *bounds, curve.end]
         for k, (a, b) in enumerate(zip(starts, ends, strict=True)):
-            # several changes in one point leave pieces without length
-            if edges[k + 1] - edges[k] <= NO_LENGTH * (curve.end - curve.start):
-                continue
             feet = np.array([a.foot, b.foot])
             pieces.append(TrimPiece(curve, edges[k], edges[k + 1], a.far, feet))
-        if curve.closed and len(pieces) > 1:
-            # the parameter's own start is no end of a piece
+        period = curve.end - curve.start
+        if curve.closed:
+            # the parameter's own start is no end of a piece, however close to a change it is
             head, tail = pieces[0], pieces.pop()
             feet = np.array([tail.far_feet[0], head.far_feet[1]])
-            pieces[0] = TrimPiece(
-                curve, tail.start - (curve.end - curve.start), head.end, head.far, feet
-            )
-        return pieces
+            pieces[0] = TrimPiece(curve, tail.start - period, head.end, head.far, feet)
+        # several changes in one point leave pieces without length
+        return [piece for piece in pieces if piece.end - piece.start > NO_LENGTH * period]
 
     def _at(
         self, curves: Sequence[NormalCurve], parameters: Sequence[Array]
@@ -313,17 +312,21 @@ class TrimScanner:
         return (low.s + high.s) / 2
 
     def _crossing(self, curve: NormalCurve, low: TrimSample, high: TrimSample) -> float:
-        """Where both far contacts are equally near: secant steps on the difference."""
+        """Where both far contacts are equally near."""
         one, two = low.far[0], high.far[0]
         feet = np.array([low.foot]), np.array([high.foot])
 
         def gap(s: float) -> float:
             at = np.array([s])
-            r = solve_radius(self._incidence, curve, one, at, feet[0], np.array([low.radius]))
+            r = try_radius(self._incidence, curve, one, at, feet[0], np.array([low.radius]))
             p = curve.feet(at) + r[:, None] * curve.directions(at)
             return float(self._distance(two, p, feet[1])[0] - r[0])
 
-        return _secant(gap, low.s, high.s)
+        found = change(gap, low.s, high.s, curve.end - curve.start, self._size)
+        if not np.isfinite(found):
+            where = place(curve.feet(np.array([low.s]))[0])
+            raise GeometryError(f"the maximal ball at the boundary point {where} is not found")
+        return found
 
     def _distance(self, site: int, points: Array, feet: Array) -> Array:
         which = np.full(len(points), site, dtype=np.int64)
@@ -359,16 +362,3 @@ def _first(curve: NormalCurve) -> Array:
         else np.concatenate([near, inner, 1 - near[::-1]])
     )
     return np.asarray(curve.start + (curve.end - curve.start) * parts)
-
-
-def _secant(f: Callable[[float], float], a: float, b: float) -> float:
-    """A root close to [a, b], which is narrow already."""
-    fa, fb = f(a), f(b)
-    for _ in range(20):
-        if fa == fb:
-            break
-        c = b - fb * (b - a) / (fb - fa)
-        if abs(c - b) <= 1e-16 * (1 + abs(c)):
-            return c
-        a, fa, b, fb = b, fb, c, f(c)
-    return b

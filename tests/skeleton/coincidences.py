@@ -121,6 +121,21 @@ def rounded_block_with_pocket() -> Solid:
     return rounded - Block((6, 4, 10), (4, 4, 9))
 
 
+def tray_with_posts() -> Solid:
+    """Balls over circles change what they touch where the circles' parameters start, or by a touch.
+
+    Posts are as much wider than their sockets as the walls are thick, and what is above these is as
+    high as they are wide.
+    """
+    outside = Block((0, 0, 0), (70, 40, 20))
+    tray: Solid = outside - Block((3, 3, 3), (64, 34, 20))
+    for x in (3, 67):
+        for y in (3, 37):
+            tray = tray | (Cylinder((x, y, 3), (x, y, 15), 5) & outside)
+            tray = tray - Cylinder((x, y, 8), (x, y, 16), 2)
+    return tray
+
+
 def bored_block() -> Solid:
     """Two equal bores cross: at two points both have one normal, in which sheets end."""
     block = Block((0, 0, 0), (40, 40, 30))
@@ -254,6 +269,7 @@ COINCIDENCES: dict[str, Coincidence] = {
     "sunk roller": Coincidence(
         sunk_roller, (4 * 4.7 * 4.3 + 6.9 * pi * 1.54**2 - 4.7 * _segment(1.54, 0.4),), (1,)
     ),
+    "tray with posts": Coincidence(tray_with_posts, (19008 + 176 * pi,), (1,)),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
     "bored tee": Coincidence(bored_tee, (60 * pi * 19 - _branch_volume(10, 9),), (-1,)),

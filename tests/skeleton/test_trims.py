@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ import decomp
 from decomp import Block
 from decomp.drafts import traced
 from decomp.medial.region_curves import RegionCurves
+from decomp.medial.trim_changes import change
 from decomp.medial.trim_surfaces import strip
 from decomp.vectors import Array, Ints, norm
 
@@ -76,3 +79,26 @@ def test_strips_whose_ends_are_points_of_the_edge() -> None:
     found = area(points[:2], points[2:], triangles)
     assert (found > 0).all()
     assert found.sum() / 2 == pytest.approx(np.trapezoid(height, upper))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_double_roots_are_placed(turn: float) -> None:
+    """From a change that tolerances put beside the touch; `turn` makes it lopsided."""
+    at = 1.2
+
+    def touch(s: float) -> float:
+        return 4 - 4 * cos(s - at) + turn * (s - at) ** 3
+
+    assert change(touch, at - 1.1e-5, at - 1.1e-5 + 1e-12, 6.28, 10.0) == pytest.approx(
+        at, abs=1e-8
+    )
+
+
+def test_single_roots_stay() -> None:
+    """Even where another one is near."""
+
+    def two(s: float) -> float:
+        return (s - 1.0) * (s - 1.002)
+
+    assert change(two, 1.0 - 1e-9, 1.0 + 1e-9, 6.28, 10.0) == pytest.approx(1.0, abs=1e-12)
+    assert change(sin, 3.14159, 3.1416, 6.28, 10.0) == pytest.approx(pi, abs=1e-12)
