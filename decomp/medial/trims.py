@@ -324,8 +324,8 @@ class TrimScanner:
 
         found = change(gap, low.s, high.s, curve.end - curve.start, self._size)
         if not np.isfinite(found):
-            where = place(curve.feet(np.array([low.s]))[0])
-            raise GeometryError(f"the maximal ball at the boundary point {where} is not found")
+            foot = curve.feet(np.array([low.s]))[0]
+            raise GeometryError("the maximal ball at the boundary point {at} is not found", at=foot)
         return found
 
     def _distance(self, site: int, points: Array, feet: Array) -> Array:
