@@ -30,6 +30,7 @@ from decomp.sites.site import SiteKind
 from decomp.tolerance import AT_END
 from decomp.tracing.contacts import contacts
 from decomp.tracing.loci import axis_gap, on_locus
+from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, norm
 
 Pair = tuple[int, int]
@@ -211,9 +212,11 @@ class RegionAssembler:
         return sheets
 
     def _kinks(self, nodes: Sequence[int]) -> dict[tuple[int, int], list[int]]:
-        """Ends of reflexive loci: there a sheet between the carrier and another site is pointed."""
-        found: dict[tuple[int, int], list[int]] = {}
-        curves = self._curves
+        """Points in which sheets are pointed: ends of reflexive loci, and balls' centres.
+
+        At the end of a locus it is a sheet between the carrier and another site.
+        """
+        curves, found = self._curves, self._centres_inside(nodes)
         for part in curves.reflexive:
             for end, other in zip(part.ends, part.others, strict=True):
                 if other < 0:
@@ -225,6 +228,25 @@ class RegionAssembler:
                 for pair in self._pointed(part.sites, other, end):
                     if nodes[number] not in found.setdefault(pair, []):
                         found[pair].append(nodes[number])
+        return found
+
+    def _centres_inside(self, nodes: Sequence[int]) -> dict[Pair, list[int]]:
+        """Balls' centres that no curve leads to, for the pairs of edges whose sheets hold them.
+
+        Where a ball shows through two faces its centre is inside the sheet between both edges.
+        """
+        curves, found = self._curves, dict[Pair, list[int]]()
+        incidence, slack = curves.incidence, AT_END * self._size
+        ends = {end for piece in curves.pieces for end in piece.ends or ()}
+        edges = {k for k, site in enumerate(incidence.sites) if site.kind is SiteKind.EDGE}
+        pairs = {p for piece in curves.pieces for p in piece.pairs if p[0] != p[1]}
+        for number, part in enumerate(curves.points, curves.vertices):
+            at = part.ends[0][None]
+            radius = float(region_queries(self._index, incidence.region).depth(at)[1][0])
+            for pair in sorted(pairs) if number not in ends else ():
+                away = norm(at - incidence.feet(pair, at)[0])
+                if edges.issuperset(pair) and float(np.abs(away - radius).max()) <= slack:
+                    found.setdefault(pair, []).append(nodes[number])
         return found
 
     def _pointed(self, sites: Sequence[int], other: int, end: Array) -> set[tuple[int, int]]:

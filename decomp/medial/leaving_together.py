@@ -67,6 +67,11 @@ def _match(
             continue
         guess = _at(dense[:stop], along[:stop], new)
         placed = pieces[number].element.place(guess)
+        # beside a locus a curve can place points far from the guess
+        new = norm(placed - own[0])
+        clear = np.abs(radii[None] - new[:, None]).min(axis=1) > SAME * new
+        clear &= new < radii[_rising(radii)][-1]
+        placed, new = placed[clear], new[clear]
         every = np.concatenate([own, placed])
         order = np.argsort(np.concatenate([_order(radii), _position(radii, new)]), kind="stable")
         whole = every[order]

@@ -177,6 +177,11 @@ def sunk_roller() -> Solid:
     return Block((0, 0, 0), (4, 4.7, 4.3)) | Cylinder((2, -0.8, 4.7), (2, 6.1, 4.7), 1.54)
 
 
+def ball_through_two_faces() -> Solid:
+    """The ball's centre is inside the sheet between both circles: no curve leads to it."""
+    return Block((0, 0, 0), (2.4, 3.5, 3.8)) | Sphere((1.7, 1.8, 3.35), 0.8)
+
+
 def ball_in_wide_air() -> dict[str, Solid]:
     """The ball's volume asks for chords a thousand times shorter than the air's."""
     ball = Sphere((0, 0, 0), 1, name="ball")
@@ -241,6 +246,10 @@ def _coned_volume() -> float:
     return 4.4 * 4.4 * 3.5 + beside + pi * 3 * (r * r + 0.46 * r + 0.46**2) / 3
 
 
+def _cap(radius: float, height: float) -> float:
+    return pi * height**2 * (3 * radius - height) / 3
+
+
 COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
@@ -270,6 +279,9 @@ COINCIDENCES: dict[str, Coincidence] = {
         sunk_roller, (4 * 4.7 * 4.3 + 6.9 * pi * 1.54**2 - 4.7 * _segment(1.54, 0.4),), (1,)
     ),
     "tray with posts": Coincidence(tray_with_posts, (19008 + 176 * pi,), (1,)),
+    "ball through two faces": Coincidence(
+        ball_through_two_faces, (2.4 * 3.5 * 3.8 + _cap(0.8, 0.1) + _cap(0.8, 0.35),), (1,)
+    ),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
     "bored tee": Coincidence(bored_tee, (60 * pi * 19 - _branch_volume(10, 9),), (-1,)),

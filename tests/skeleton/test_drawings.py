@@ -12,10 +12,18 @@ from decomp.complex.model import LineKind
 from decomp.medial.about_centre import about_centre
 from decomp.medial.curve_elements import RayCurve
 from decomp.medial.incidence import Incidence
+from decomp.medial.leaving_together import matched
 from decomp.medial.pieces import CurvePiece, network
 from decomp.medial.sheet_family import SheetFamily
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.vectors import Array, norm
+
+
+class Drawn:
+    """A curve that places points half as far from the origin, as beside a locus it can."""
+
+    def place(self, points: Array) -> Array:
+        return np.asarray(points / 2)
 
 
 def test_points_about_a_balls_centre_are_told_apart() -> None:
@@ -68,3 +76,18 @@ def test_a_curve_that_comes_back_at_once_is_its_node() -> None:
     found = network(1.0, np.empty((0, 3)), [line, hook])
     assert len(found.pieces) == 1
     assert all(float(norm(b - a)) > 0 for a, b in pairwise(found.pieces[0].points))
+
+
+def test_samples_of_curves_that_leave_together_stay_in_order() -> None:
+    """Also where a curve places a sample far from where it was asked for."""
+    ways = np.array([[1.0, 0.0, 0.0], [1.0, 0.01, 0.0]])
+    dense = np.linspace(0, 1, 21)[:, None]
+    pieces = [
+        CurvePiece(LineKind.TRIM, ((0,), (1,)), Drawn(), dense * way, np.zeros((2, 3)), (0, end))
+        for end, way in enumerate(ways, 1)
+    ]
+    samples = [np.array([[0.0], [t], [1.0]]) * way for t, way in zip((0.4, 0.5), ways, strict=True)]
+    found = matched(pieces, samples)
+    assert [len(each) for each in found] == [4, 4]
+    for each in found:
+        assert (np.diff(norm(each)) > 0).all()
