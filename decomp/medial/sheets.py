@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.attempts import Way, first_of
 from decomp.complex.domains import Domain
@@ -38,6 +39,8 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm, place
 ROUNDS = 12
 FILL = 6
 """Points per period with which a domain that has too few is filled."""
+MERGED = 1e-9
+"""Points nearer to each other than this part of a period are one."""
 COARSE = 0.15
 """Triangles whose middles are farther from the sheet than this part of their longest side are
 divided before anything else, so that all are on the right side of the solid."""
@@ -229,6 +232,9 @@ class SheetMaker:
                 start, length = float(low[k]), float(high[k] - low[k])
                 sides.append(start + (period or length) * (np.arange(count) + 0.5) / count)
             spots = np.array(np.meshgrid(*sides)).reshape(2, -1).T
+        spots = _new(spots, draft.uv, draft.period)
+        if not len(spots):
+            raise error
         feet, inward = domain.lift(spots)
         on = self._tests.on(draft.pair[draft.column], feet, inward)
         if not on.any():
@@ -313,6 +319,23 @@ def segments_of(lines: Sequence[Ints]) -> Ints:
         return np.empty((0, 2), dtype=np.int64)
     both = np.sort(np.concatenate(parts), axis=1)
     return np.unique(both, axis=0)
+
+
+def _new(spots: Array, known: Array, period: Period) -> Array:
+    """Those of some spots (k, 2) that are none of the known ones (n, 2), nor each other's copies.
+
+    An edge's middle is told once for each of its triangles, also a period away.
+    """
+    cyclic = np.array([p or 0.0 for p in period])
+    every = np.concatenate([known, spots])
+    around = np.where(cyclic > 0, cyclic, 1.0)
+    every = np.where(cyclic > 0, np.mod(every, around), every - every.min(axis=0))
+    every = np.where((cyclic > 0) & (every >= around), 0.0, every)
+    near = cKDTree(every, boxsize=cyclic).query_ball_point(
+        every[len(known) :], MERGED * cyclic.max()
+    )
+    fresh = [min(rows) == len(known) + k for k, rows in enumerate(near)]
+    return np.asarray(spots[fresh])
 
 
 def _encloses(segments: Ints) -> bool:

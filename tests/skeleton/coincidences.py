@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import asin, pi, sqrt
+from math import asin, cos, pi, sin, sqrt
 
-from scipy.integrate import quad  # type: ignore[import-untyped]
+from scipy.integrate import dblquad, quad  # type: ignore[import-untyped]
 
-from decomp.csg.primitives import Block, Cylinder, HalfSpace, Sphere, Torus
+from decomp.csg.primitives import Block, Cylinder, HalfSpace, InfiniteCylinder, Sphere, Torus
 from decomp.csg.solid import Solid
 
 
@@ -109,6 +109,11 @@ def tray_with_posts() -> Solid:
     return tray
 
 
+def drilled_ring() -> Solid:
+    """The sheets between ring and bore have no border along which the ring's footprint closes."""
+    return Torus((0, 0, 0), (0, 0, 1), 6, 2.5) - InfiniteCylinder((0, 0, 0), (1, 0, 0), 0.6)
+
+
 def bored_block() -> Solid:
     """Two equal bores cross: at two points both have one normal, in which sheets end."""
     block = Block((0, 0, 0), (40, 40, 30))
@@ -149,6 +154,15 @@ def _keyed_volume() -> float:
     return 20 * pi * (169 + 81) - float(quad(depth, -3, 3, epsabs=1e-12, epsrel=1e-13)[0])
 
 
+def _drilled_volume() -> float:
+    def chords(s: float, angle: float) -> float:
+        y, half = s * cos(angle), sqrt(2.5**2 - (s * sin(angle)) ** 2)
+        return 2 * s * (sqrt((6 + half) ** 2 - y * y) - sqrt((6 - half) ** 2 - y * y))
+
+    bore = dblquad(chords, 0, 2 * pi, 0, 0.6, epsabs=1e-11, epsrel=1e-12)[0]
+    return 2 * pi**2 * 6 * 2.5**2 - float(bore)
+
+
 COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
@@ -163,6 +177,7 @@ COINCIDENCES: dict[str, Coincidence] = {
         rounded_block_with_pocket, (1920 - (16 - 4 * pi) * 16 - 96,), (1,)
     ),
     "tray with posts": Coincidence(tray_with_posts, (19008 + 176 * pi,), (1,)),
+    "drilled ring": Coincidence(drilled_ring, (_drilled_volume(),), (-2,)),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
     "ball in wide air": Coincidence(
