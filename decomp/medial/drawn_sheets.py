@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.domain_base import Domain
 from decomp.complex.model import SurfaceElement
@@ -20,6 +21,7 @@ from decomp.complex.planar import PLANE, Period, SparseError, Triangulation, cro
 from decomp.errors import GeometryError
 from decomp.medial.component_votes import incentres
 from decomp.medial.sheet_tests import SheetTests
+from decomp.tolerance import TOLERANCE
 from decomp.tracing.balls import Balls
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
@@ -196,7 +198,9 @@ class DrawnCurves:
         footprint = self.footprint
         if footprint is None:
             raise error
-        spots = error.spots if len(error.spots) else self._grid()
+        spots = _new(error.spots if len(error.spots) else self._grid(), self.uv, self.period)
+        if not len(spots):
+            raise error
         feet, inward = footprint.domain.lift(spots)
         on = footprint.tests.on(footprint.site, feet, inward)
         if not on.any():
@@ -230,6 +234,23 @@ class DrawnCurves:
         if coarse.any():
             self._add(found.centroids[rows][coarse], balls.centre[coarse])
         return bool(coarse.any())
+
+
+def _new(spots: Array, known: Array, period: Period) -> Array:
+    """Those of some spots (k, 2) that are none of the known ones (n, 2), nor each other's copies.
+
+    An edge's middle is told once for each of its triangles, also a period away.
+    """
+    cyclic = np.array([p or 0.0 for p in period])
+    every = np.concatenate([known, spots])
+    around = np.where(cyclic > 0, cyclic, 1.0)
+    every = np.where(cyclic > 0, np.mod(every, around), every - every.min(axis=0))
+    every = np.where((cyclic > 0) & (every >= around), 0.0, every)
+    near = cKDTree(every, boxsize=cyclic).query_ball_point(
+        every[len(known) :], TOLERANCE * cyclic.max()
+    )
+    fresh = [min(rows) == len(known) + k for k, rows in enumerate(near)]
+    return np.asarray(spots[fresh])
 
 
 def facing(points: Array, triangles: Ints, normals: Array) -> Ints:

@@ -7,11 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import acos, asin, pi, sqrt
+from math import acos, asin, cos, pi, sin, sqrt
 
-from scipy.integrate import quad  # type: ignore[import-untyped]
+from scipy.integrate import dblquad, quad  # type: ignore[import-untyped]
 
-from decomp.csg.primitives import Block, Cone, Cylinder, HalfSpace, Sphere, Torus
+from decomp.csg.primitives import (
+    Block,
+    Cone,
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Sphere,
+    Torus,
+)
 from decomp.csg.solid import Solid
 from tests.skeleton.machine_parts import ROUND, rounded_box
 
@@ -136,6 +144,11 @@ def tray_with_posts() -> Solid:
     return tray
 
 
+def drilled_ring() -> Solid:
+    """The sheets between ring and bore have no border along which the ring's footprint closes."""
+    return Torus((0, 0, 0), (0, 0, 1), 6, 2.5) - InfiniteCylinder((0, 0, 0), (1, 0, 0), 0.6)
+
+
 def bored_block() -> Solid:
     """Two equal bores cross: at two points both have one normal, in which sheets end."""
     block = Block((0, 0, 0), (40, 40, 30))
@@ -250,6 +263,15 @@ def _cap(radius: float, height: float) -> float:
     return pi * height**2 * (3 * radius - height) / 3
 
 
+def _drilled_volume() -> float:
+    def chords(s: float, angle: float) -> float:
+        y, half = s * cos(angle), sqrt(2.5**2 - (s * sin(angle)) ** 2)
+        return 2 * s * (sqrt((6 + half) ** 2 - y * y) - sqrt((6 - half) ** 2 - y * y))
+
+    bore = dblquad(chords, 0, 2 * pi, 0, 0.6, epsabs=1e-11, epsrel=1e-12)[0]
+    return 2 * pi**2 * 6 * 2.5**2 - float(bore)
+
+
 COINCIDENCES: dict[str, Coincidence] = {
     "long bored plate": Coincidence(long_bored_plate, (13500 - 50 * pi * 2.25,), (0,)),
     "cross in air": Coincidence(cross_in_air, (1800.0**3 - 116,), (2,)),
@@ -282,6 +304,7 @@ COINCIDENCES: dict[str, Coincidence] = {
     "ball through two faces": Coincidence(
         ball_through_two_faces, (2.4 * 3.5 * 3.8 + _cap(0.8, 0.1) + _cap(0.8, 0.35),), (1,)
     ),
+    "drilled ring": Coincidence(drilled_ring, (_drilled_volume(),), (-2,)),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),
     "bored tee": Coincidence(bored_tee, (60 * pi * 19 - _branch_volume(10, 9),), (-1,)),
