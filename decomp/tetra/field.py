@@ -33,6 +33,9 @@ HOLLOW = 5.0
 """unless one length all over the box gives more than so many times as many tetrahedra as a field
 that grows outside the model does: TetWild fills the box, and a field takes it two more passes."""
 PROBES = 4000
+WIDEST = 0.5
+"""The longest length beside the model, in parts of its diagonal: a slender one fills little of the
+cube that its field is made in."""
 AROUND = 0.05
 """How far TetWild's box reaches beyond the model, in parts of its diagonal."""
 
@@ -57,7 +60,8 @@ def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeF
         return longest, None
     low, high = _box(geometry, MARGIN)
     points = octree_corners(low, float((high - low).max()), lengths)
-    field = SizeField(points, delaunay(points), lengths(points))
+    bounded = np.minimum(lengths(points), max(longest, WIDEST * geometry.diagonal))
+    field = SizeField(points, delaunay(points), bounded)
     return float(field.sizes.max()) if hollow else longest, field
 
 
