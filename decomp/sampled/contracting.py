@@ -38,7 +38,7 @@ def thin(points: Array, sites: list[tuple[int, ...]], triangles: Ints, placer: P
         a, b, c = (set(sites[v]) for v in triangles[row].tolist())
         common = a & b & c
         result[row] = len(common) >= 3 or any(
-            placer.on_normal(i, j) for i in common for j in common if i != j
+            placer.normals.on_normal(i, j) for i in common for j in common if i != j
         )
     return result
 

@@ -47,16 +47,18 @@ class NormalsSurface:
     towards: float
 
     def place(self, points: Array) -> Array:
-        """Move points (k, 3) onto the surface.
-
-        Raises:
-            GeometryError: Newton's method fails at one of them.
-        """
-        return _placed(self.placer, self.sites, points, "trim surface")
+        """Move points (k, 3) onto the surface, the shortest way where Newton's method finds it."""
+        if not len(points):
+            return np.array(points)
+        found = self.placer.place_on_normals(self.sites, points)
+        if not found.good.all():
+            far = ~found.good
+            found.points[far] = self.placer.normals.onto(*self.sites, points[far])
+        return found.points
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3)."""
-        across = self.placer.across(self.sites, points)
+        across = self.placer.normals.off(*self.sites, points)[0][1]
         return np.asarray(self.towards * across / norm(across)[:, None])
 
 

@@ -28,6 +28,7 @@ class Extracted:
         links: (t, 2) on trim surfaces the sites of which one takes over, -1 on sheets.
         tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
         lost: (v,) vertices that could not be placed well.
+        pinned: (v,) vertices that stay where they are, as loci end there.
     """
 
     points: Array
@@ -39,6 +40,7 @@ class Extracted:
     links: Ints
     tet: Ints
     lost: Bools
+    pinned: Bools
 
     def short_edges(self, least: float) -> Ints:
         """The edges (k, 2) that are no longer than a length."""
@@ -57,7 +59,7 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         least: no shorter edge has a length.
     """
     sites = list(given.sites)
-    sheet, fixed = given.links[:, 0] < 0, given.node >= 0
+    sheet, fixed = given.links[:, 0] < 0, (given.node >= 0) | given.pinned
     become = Contractor(
         given.points, sites, given.triangles, fixed, wanted, sheet, short, least
     ).run()
@@ -76,6 +78,7 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         given.links[rows],
         given.tet[rows],
         given.lost[used],
+        given.pinned[used],
     )
 
 

@@ -30,6 +30,7 @@ from decomp.sampled.extracted import ONE, Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.jumps import without_jump
+from decomp.sampled.loci import pinned_ends
 from decomp.sampled.labels import Labeller
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.smoothing import unfolded
@@ -37,7 +38,7 @@ from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
 from decomp.tetra.cells import site_owners
 from decomp.tetra.child import MeshingError, TimeLimit
 from decomp.tracing.queries import region_queries
-from decomp.vectors import norm
+from decomp.vectors import Ints, norm
 
 FLOORS = (12.0, 18.0, 27.0, 40.0, 60.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
@@ -128,13 +129,13 @@ def _attempt(
         where = ", ".join(f"{x:.6g}" for x in at)
         raise GeometryError(f"{lost} points of walls have no place, one near ({where})")
     tell("triangulating sheets", share)
-    shown = _smooth(geometry, given, mesh, tools, extracted)
+    shown = _smooth(geometry, given, mesh, tools, extracted, floor)
     result = _Try(None, ["nothing was tried"])
     for _ in range(FINENESSES):
         tell("refining", share)
-        made, _ = refined(shown.complex, fineness * geometry.diagonal)
+        made, kept = refined(shown.complex, fineness * geometry.diagonal)
         tell("measuring", share)
-        described = Described(geometry, given, tools, shown, made)
+        described = Described(geometry, given, tools, shown, made, kept)
         regions, failures, short = [], [], set()
         excess = 1.0
         for number in range(len(geometry.regions)):
@@ -164,12 +165,17 @@ def _smooth(
     mesh: Bisected,
     tools: list[RegionTools],
     extracted: list[Extracted],
+    floor: float,
 ) -> Drawn:
     """The complex, smoothed; triangles that stay folded are contracted."""
     boundary = len(given.plan.complex.patches)
+    extracted = [
+        pinned_ends(tool.incidence, tool.loci, found)
+        for tool, found in zip(tools, extracted, strict=True)
+    ]
     for left in reversed(range(UNFOLDINGS)):
-        shown = drawn(geometry, given, mesh, tools, extracted)
-        smooth, folded = unfolded(shown.complex, boundary)
+        shown = drawn(geometry, given, mesh, tools, extracted, floor / 2)
+        smooth, folded = unfolded(shown.complex, boundary, _pinned(shown, extracted))
         if not left or not len(folded):
             break
         bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
@@ -183,6 +189,12 @@ def _smooth(
             fewer.append(contracted(moved, wanted, moved.short_edges(least), least))
         extracted = fewer
     return replace(shown, complex=smooth)
+
+
+def _pinned(shown: Drawn, extracted: list[Extracted]) -> Ints:
+    """The points that stay where they are."""
+    pairs = zip(shown.vertices, extracted, strict=True)
+    return np.concatenate([vertices[found.pinned] for vertices, found in pairs])
 
 
 def _walls(

@@ -22,7 +22,7 @@ ROUNDS, LEAST = 6, 3
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
-def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
+def unfolded(given: Complex, first: int, pinned: Ints) -> tuple[Complex, Ints]:
     """Smooth a complex until no triangle is folded, or for so many rounds.
 
     Returns:
@@ -31,11 +31,13 @@ def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
     Args:
         given: with all its vertices in their places.
         first: the number of the first patch that is a wall's.
+        pinned: points that stay where they are.
     """
     elements = Elements(given)
     triangles = np.concatenate([patch.triangles for patch in given.patches])
     patch = np.repeat(np.arange(len(given.patches)), [len(p.triangles) for p in given.patches])
     element, pairs = _movable(given, elements, triangles, patch)
+    element[pinned] = -1
     points = np.array(given.points)
     numbers = elements.of_patch[patch]
     for _ in range(ALONG):
