@@ -6,10 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.sampled.contracting import Contractor
+from decomp.sampled.contracting import Contractor, Holds
+from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints, norm
 
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+CLOSE = 2e-6
+"""Vertices closer than this part of the size become one if all walls allow it: where a site is
+touched to second order a junction is known no better."""
 ONE = 1e-10
 """Vertices closer than this part of the size are one."""
 
@@ -49,7 +53,9 @@ class Extracted:
         return np.asarray(edges[length <= least])
 
 
-def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Extracted:
+def contracted(
+    given: Extracted, wanted: Bools, short: Ints, least: float, placer: Placer
+) -> Extracted:
     """Walls without some of their triangles and edges, as far as that changes nothing else.
 
     Args:
@@ -57,11 +63,13 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         wanted: (t,) triangles that are to go.
         short: (k, 2) edges that are to go.
         least: no shorter edge has a length.
+        placer: of the region.
     """
     sites = list(given.sites)
     sheet, fixed = given.links[:, 0] < 0, (given.node >= 0) | given.pinned
     become = Contractor(
-        given.points, sites, given.triangles, fixed, wanted, sheet, short, least
+        given.points, sites, given.triangles, fixed, wanted, sheet, short, least,
+        given.between, holding(given, placer)
     ).run()
     triangles = become[given.triangles]
     a, b, c = triangles.T
@@ -80,6 +88,23 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         given.lost[used],
         given.pinned[used],
     )
+
+
+def holding(given: Extracted, placer: Placer) -> Holds:
+    """Which vertices of walls lie on which walls."""
+    known: dict[tuple[int, int, int, bool], bool] = {}
+
+    def holds(vertex: int, a: int, b: int, sheet: bool) -> bool:
+        if {a, b} <= set(given.sites[vertex]):
+            return True
+        key = (vertex, a, b, sheet)
+        if key not in known:
+            known[key] = not given.lost[vertex] and placer.holds(
+                given.points[vertex], float(given.radius[vertex]), (a, b), sheet
+            )
+        return known[key]
+
+    return holds
 
 
 def _uncancelled(triangles: Ints, between: Ints) -> Ints:

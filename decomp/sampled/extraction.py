@@ -17,7 +17,7 @@ from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
 from decomp.sampled.contracting import thin
 from decomp.sampled.crossings import crossings
-from decomp.sampled.extracted import ONE, SIDES, Extracted, contracted
+from decomp.sampled.extracted import CLOSE, ONE, SIDES, Extracted, contracted
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
 from decomp.sampled.normals import LOOSE
@@ -94,7 +94,7 @@ class Extractor:
         edges = np.unique(sides, axis=0)
         edges = edges[~lost[edges].any(axis=1)]
         length = norm(points[edges[:, 0]] - points[edges[:, 1]])
-        same = length <= ONE * self._size
+        same = length <= CLOSE * self._size
         done = np.array(~raised)
         for row in np.argsort(length, kind="stable").tolist():
             a, b = edges[row].tolist()
@@ -228,4 +228,4 @@ class Extractor:
         whole = Extracted(
             points, radius, node, sites, triangles, between, linked, found.tet[kept], lost, np.zeros_like(lost)
         )
-        return contracted(whole, narrow, short, ONE * self._size)
+        return contracted(whole, narrow, short, ONE * self._size, self._placer)

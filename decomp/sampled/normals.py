@@ -16,12 +16,15 @@ from decomp.boundary.topology import Convexity
 from decomp.medial.incidence import Incidence
 from decomp.sites.site import SiteKind, faces_at
 from decomp.tracing.fields import edge_foot
+from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
 DELTA = 1e-7
 """Gradients of planes of normals are differences over this part of the size."""
 LOOSE, TIGHT = 0.2, 1e-5
 """Radians by which the way to a point may be off the normals: before it is placed, and then."""
+BESIDE = (1e-2, 1e-3, 1e-4, 1e-5)
+"""So far beside a smooth edge, in parts of the size, it is asked which face is there."""
 NONE = 1e-300
 
 
@@ -29,11 +32,12 @@ class Normals:
     """The normals along which sites of one region take over from each other.
 
     Args:
-        incidence: of the region.
+        incidence, queries: of the region.
     """
 
-    def __init__(self, incidence: Incidence) -> None:
-        self._it = incidence
+    def __init__(self, incidence: Incidence, queries: RegionQueries) -> None:
+        self._it, self._queries = incidence, queries
+        self._senses: dict[int, float] = {}
         self._size = incidence.boundary.diagonal
         self._known: dict[tuple[int, int], bool] = {}
         self._smooth: dict[tuple[int, int], tuple[int, ...]] = {}
@@ -73,7 +77,7 @@ class Normals:
     def later(self, a: int, b: int) -> int:
         """The one of two sites that takes over from the other: the vertex, or else the edge."""
         order = (SiteKind.FACE, SiteKind.EDGE, SiteKind.VERTEX)
-        return max((a, b), key=lambda site: order.index(self._it.sites[site].kind))
+        return max((a, b), key=lambda site: (order.index(self._it.sites[site].kind), site))
 
     def at_vertex(self, sites: tuple[int, ...], point: Array) -> tuple[int, ...]:
         """Those of some sites around a vertex that hand over along the normal next to a point (3,).
@@ -215,8 +219,23 @@ class Normals:
             foot[rows], away[rows] = found[rows], gap[rows]
             curve = it.boundary.edges[edge].curve
             along = _unit(curve.derivative(curve.parameter(found[rows])))
-            across[rows] = _unit(cross(along, it.inward(one.index, found[rows])))
+            normal = it.inward(one.index, found[rows])
+            across[rows] = self._sense(edge, max(a, b)) * _unit(cross(along, normal))
         return foot, across
+
+    def _sense(self, edge: int, later: int) -> float:
+        """Whether the cross product of a smooth edge's tangent and the normal leads to a face."""
+        if edge not in self._senses:
+            it = self._it
+            curve, middle = it.boundary.edges[edge].curve, it.boundary.edges[edge]
+            at = curve.point(np.array([(middle.start + middle.end) / 2]))
+            normal = it.inward(middle.faces[0], at)
+            way = _unit(cross(_unit(curve.derivative(curve.parameter(at))), normal))
+            sides = np.array(BESIDE)[:, None] * self._size
+            asked = np.concatenate([at + sides * (normal + s * way) for s in (1.0, -1.0)])
+            ahead, behind = np.split(self._queries.nearest(asked).site == later, 2)
+            self._senses[edge] = 1.0 if ahead.sum() >= behind.sum() else -1.0
+        return self._senses[edge]
 
     def _foot(self, edge: int, points: Array) -> Array:
         it = self._it.boundary.edges[edge]

@@ -17,6 +17,7 @@ from decomp.sampled.normals import TIGHT, Normals
 from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
 from decomp.tracing.loci import on_locus
+from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
 STEPS = 30
@@ -28,6 +29,8 @@ RANK = 1e-7
 """Gradients that differ by less than this are equal."""
 CHANGES = 3
 """So often it is asked which sites take over from one another."""
+NOWHERE = 1e-9
+"""Points nearer to the boundary than this part of the size are on it."""
 APART = 0.1
 """Feet farther apart than this part of the radius are two."""
 
@@ -51,13 +54,13 @@ class Placer:
     """Places points of one region.
 
     Args:
-        incidence: of the region.
+        incidence, queries: of the region.
     """
 
-    def __init__(self, incidence: Incidence) -> None:
+    def __init__(self, incidence: Incidence, queries: RegionQueries) -> None:
         self._it = incidence
         self._size = incidence.boundary.diagonal
-        self.normals = Normals(incidence)
+        self.normals = Normals(incidence, queries)
 
     def is_face(self, site: int) -> bool:
         """Whether a site is a face."""
@@ -142,6 +145,18 @@ class Placer:
                 break
             before = codes
         return result
+
+    def holds(self, point: Array, radius: float, pair: tuple[int, int], sheet: bool) -> bool:
+        """Whether a point (3,) of some radius lies on the sheet, or trim surface, of two sites."""
+        off = 0.0
+        for site in pair:
+            feet = self._it.feet([site], point[None])[:, 0]
+            distance = float(self._field(site, point[None], feet)[0][0])
+            off = max(off, abs(distance - radius))
+        if off > GOOD * self._size:
+            return False
+        flat = radius <= NOWHERE * self._size
+        return sheet or flat or float(self.normals.slant(*pair, point[None])[0]) <= TIGHT
 
     def place_on_normals(self, sites: tuple[int, int], points: Array) -> Placed:
         """Move points (k, 3) to where one of two sites takes over from the other."""

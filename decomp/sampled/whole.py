@@ -349,10 +349,10 @@ class Described:
 
 def tools_of(geometry: Geometry, number: int, owner: Ints) -> RegionTools:
     """The tools of a region."""
-    region_queries(geometry.index, number)
+    queries = region_queries(geometry.index, number)
     incidence = Incidence(geometry.regions[number], geometry.sites, number)
     own = {
         site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
     loci = tuple(reflexive_parts(geometry.index, incidence))
-    return RegionTools(incidence, Placer(incidence), own, loci)
+    return RegionTools(incidence, Placer(incidence, queries), own, loci)
