@@ -71,28 +71,34 @@ def certified(evidence: Evidence, balls: int = BALLS, seed: int = 0) -> Certifie
     return Certified(certificate, where)
 
 
-def limits(tolerance: float) -> dict[str, float]:
+def limits(tolerance: float, volume: float = VOLUME) -> dict[str, float]:
     """The most that each figure may be, with a chord tolerance relative to the diagonal."""
     return {
         "residual": RESIDUAL,
         "chord_error": tolerance,
         "flipped": 0,
         "open_cells": 0,
-        "volume_error": VOLUME,
+        "volume_error": volume,
         "intrusion": INTRUSION,
         "coverage": 2 * tolerance,
     }
 
 
-def shortcomings(certificate: Certificate, tolerance: float) -> tuple[str, ...]:
+def shortcomings(
+    certificate: Certificate, tolerance: float, volume: float = VOLUME
+) -> tuple[str, ...]:
     """The names of the figures that are not what they have to be.
 
     Args:
+        certificate: with the figures.
         tolerance: of chords, relative to the model's diagonal.
+        volume: how far the sum of the cells' volumes may be off, relative to the region's.
     """
     # written so that a figure that is no number fails
     short = [
-        name for name, most in limits(tolerance).items() if not getattr(certificate, name) <= most
+        name
+        for name, most in limits(tolerance, volume).items()
+        if not getattr(certificate, name) <= most
     ]
     if certificate.euler != certificate.expected_euler:
         short.append("euler")
@@ -100,11 +106,13 @@ def shortcomings(certificate: Certificate, tolerance: float) -> tuple[str, ...]:
     return tuple(sorted(short, key=order.index))
 
 
-def explained(found: Certified, tolerance: float, sites: Sequence[Site]) -> list[Shortcoming]:
+def explained(
+    found: Certified, tolerance: float, sites: Sequence[Site], volume: float = VOLUME
+) -> list[Shortcoming]:
     """Each figure that is not what it has to be: its value, the limit, the place."""
-    most = limits(tolerance) | {"euler": found.certificate.expected_euler}
+    most = limits(tolerance, volume) | {"euler": found.certificate.expected_euler}
     lines = []
-    for name in shortcomings(found.certificate, tolerance):
+    for name in shortcomings(found.certificate, tolerance, volume):
         line = f"{name} is {getattr(found.certificate, name):.3g}, allowed {most[name]:.3g}"
         worst = found.where.get(name)
         if worst is not None and worst.point is not None:

@@ -27,6 +27,8 @@ Progress: TypeAlias = Callable[[int], None]
 
 ROUNDS: Final = 300
 """Batches of splits after which a surface counts as one that cannot be followed."""
+LAST: Final = 4
+"""So often a lenient mesh is measured thoroughly."""
 PATIENCE: Final = 12
 """So often triangles that only lean are split."""
 
@@ -52,20 +54,28 @@ def refine(given: Complex, tolerance: float | Array, progress: Progress | None =
 
 
 def refined(
-    given: Complex, tolerance: float | Array, progress: Progress | None = None
+    given: Complex,
+    tolerance: float | Array,
+    progress: Progress | None = None,
+    lenient: bool = False,
 ) -> tuple[Complex, Ints]:
     """As `refine`, with the new number of each given point.
 
     It is -1 for a point inside a patch that was removed; the others keep their order. Points on
-    lines, and points in no triangle, are never removed.
+    lines, and points in no triangle, are never removed. If `lenient`, what cannot be followed, or
+    stays folded, is left as it is.
     """
     for each in np.unique(tolerance):
         positive(each, "tolerance")
-    mesh = Mesh(given, np.broadcast_to(np.asarray(tolerance, np.float64), len(given.patches)))
+    mesh = Mesh(
+        given, np.broadcast_to(np.asarray(tolerance, np.float64), len(given.patches)), lenient
+    )
     _check(mesh)
     _split(mesh, progress)
     collapse(mesh)
-    while mesh.check():
+    left = LAST
+    while mesh.check() and (not lenient or left):
+        left -= 1
         _split(mesh, progress)
     return mesh.result()
 
@@ -79,11 +89,14 @@ def _split(mesh: Mesh, progress: Progress | None) -> None:
             progress(len(mesh.triangles))
         if split_lines(mesh) or split_inside(mesh):
             continue
-        _check_folds(mesh, FOLDED if patience > 0 else 0.0)
+        if not mesh.lenient:
+            _check_folds(mesh, FOLDED if patience > 0 else 0.0)
         leaning = split_leaning(mesh) if patience > 0 else 0
         patience -= 1
         if not (leaning or split_twins(mesh)):
             return
+    if mesh.lenient:
+        return
     worst = int(np.nanargmax(mesh.error))
     name = mesh.elements.names[int(mesh.surface[worst])]
     at = mesh.points[mesh.triangles[worst]].mean(axis=0)

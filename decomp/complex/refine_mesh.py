@@ -21,6 +21,7 @@ from decomp.complex.errors_of import (
 from decomp.complex.halfway import halfway
 from decomp.complex.model import Complex
 from decomp.complex.refine_elements import Elements
+from decomp.complex.refine_lenient import LenientElements
 from decomp.errors import GeometryError
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, Ints, norm
@@ -95,6 +96,7 @@ class Mesh:
     Args:
         given: the complex.
         allowed: (p,) of its patches.
+        lenient: whether what cannot be followed is left as it is, instead of being an error.
 
     Attributes:
         points: (n, 3) exact vertices.
@@ -108,8 +110,9 @@ class Mesh:
         edges: of the triangles and segments as they are now.
     """
 
-    def __init__(self, given: Complex, allowed: Array) -> None:
-        self.elements = Elements(given)
+    def __init__(self, given: Complex, allowed: Array, lenient: bool = False) -> None:
+        self.lenient = lenient
+        self.elements = LenientElements(given) if lenient else Elements(given)
         self._of_patch, self._of_line = allowed, _line_limits(given, allowed)
         self.points: Array = np.array(given.points, dtype=np.float64)
         self.diagonal = float(norm(np.ptp(self.points, axis=0))) if len(self.points) else 0.0
@@ -248,13 +251,16 @@ class Mesh:
             np.maximum.at(edges.error, which, error / allowed)
             return
         error, middle = edge_errors(self.elements, element, ends, allowed)
-        self._shorten(element, ends, error, middle)
+        if self.lenient:
+            error[error > norm(ends[:, 1] - ends[:, 0])] = 0.0
+        else:
+            self._shorten(element, ends, error, middle)
         last = np.append(which[1:] != which[:-1], True)
         edges.middle[which[last]] = middle[last]
         curve = np.flatnonzero(element >= self.elements.first_curve)
         part = norm(middle[curve] - edges.middle[which[curve]])
         apart = np.flatnonzero(part > 1e3 * TOLERANCE * self.diagonal)
-        if len(apart):
+        if len(apart) and not self.lenient:
             raise GeometryError(
                 "two lines share a segment but not its curve at {at}; it must be divided",
                 at=ends.mean(axis=1)[curve[apart[0]]],

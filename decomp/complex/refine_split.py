@@ -31,7 +31,9 @@ def split_inside(mesh: Mesh) -> int:
     """
     bad = (mesh.error > 1.0) | _worst_sides(mesh)[0]
     small = bad & (_lengths(mesh).max(axis=1) < 0.1 * mesh.allowed)
-    if small.any():
+    if small.any() and mesh.lenient:
+        bad &= ~small
+    elif small.any():
         t = int(np.flatnonzero(small)[0])
         centre = mesh.points[mesh.triangles[t]].mean(axis=0)
         name = mesh.elements.names[int(mesh.surface[t])]
@@ -61,7 +63,9 @@ def split_twins(mesh: Mesh) -> int:
         first = np.append(True, np.diff(group[order]) != 0)
         worst = which[order[first]]
         flat = np.flatnonzero(edges.error[worst] <= TOLERANCE * mesh.diagonal)
-        if len(flat):
+        if len(flat) and mesh.lenient:
+            worst = np.setdiff1d(worst, worst[flat])
+        elif len(flat):
             raise GeometryError(
                 "two patches coincide along an edge at {at}",
                 at=mesh.points[mesh.edges.ends[worst[flat[0]]]].mean(axis=0),
@@ -75,6 +79,8 @@ def split_twins(mesh: Mesh) -> int:
     first = np.append(same, False) & ~np.insert(same, 0, False)
     worst = order[first]
     flat = np.flatnonzero(mesh.error[worst] <= TOLERANCE * mesh.diagonal)
+    if len(flat) and mesh.lenient:
+        return 0
     if len(flat):
         centre = mesh.points[mesh.triangles[worst[flat[0]]]].mean(axis=0)
         raise GeometryError("two triangles coincide at {at}", at=centre)
@@ -137,7 +143,14 @@ def _split_edges(mesh: Mesh, edge: Ints, weight: Array) -> int:
         mesh.surface[np.minimum(last // 3, len(mesh.triangles) - 1)] if inner else -1,
     )
     points = _cuts(mesh, edge[some], element)
-    _check_new(mesh, element, points, mesh.points[edges.ends[edge[some]]])
+    good = _check_new(mesh, element, points, mesh.points[edges.ends[edge[some]]])
+    if not good.all():
+        # left as they are from now on
+        edges.error[edge[some[~good]]] = 0.0
+        chosen[some[~good]] = False
+        some, points = some[good], points[good]
+        if not len(some):
+            return 0
     new[some] = mesh.add(points)
 
     use = chosen[item]
@@ -196,7 +209,11 @@ def _split_triangles(mesh: Mesh, t: Ints) -> int:
     """Split triangles at the exact points over their centres."""
     corners = mesh.points[mesh.triangles[t]]
     points = mesh.elements.place(mesh.surface[t], corners.mean(axis=1))
-    _check_new(mesh, mesh.surface[t], points, corners)
+    good = _check_new(mesh, mesh.surface[t], points, corners)
+    mesh.error[t[~good]] = 0.0
+    t, points = t[good], points[good]
+    if not len(t):
+        return 0
     v = mesh.add(points)
     a, b, c = mesh.triangles[t].T
     mesh.set_triangles(t, np.stack([a, b, v], axis=1))
@@ -206,17 +223,22 @@ def _split_triangles(mesh: Mesh, t: Ints) -> int:
     return len(t)
 
 
-def _check_new(mesh: Mesh, element: Ints, points: Array, near: Array) -> None:
-    """New vertices must lie on their element and apart from their neighbours (k, j, 3)."""
+def _check_new(mesh: Mesh, element: Ints, points: Array, near: Array) -> Bools:
+    """Which new vertices (k,) lie on their element and apart from their neighbours (k, j, 3).
+
+    Raises:
+        GeometryError: one does not, unless the mesh is lenient.
+    """
     small = TOLERANCE * mesh.diagonal
     off: Bools = mesh.elements.gap(element, points) > small
     off |= (norm(near - points[:, None]) <= small).any(axis=1)
-    if off.any():
+    if off.any() and not mesh.lenient:
         first = int(np.flatnonzero(off)[0])
         name = mesh.elements.names[int(element[first])]
         raise GeometryError(
             f"no new vertex can be placed on the {name} at {{at}}", at=points[first]
         )
+    return ~off
 
 
 def spans(starts: Ints, sizes: Ints) -> Ints:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import heapq
 from collections import defaultdict
+from collections.abc import Callable
 
 import numpy as np
 
@@ -38,9 +39,12 @@ def thin(points: Array, sites: list[tuple[int, ...]], triangles: Ints, placer: P
         a, b, c = (set(sites[v]) for v in triangles[row].tolist())
         common = a & b & c
         result[row] = len(common) >= 3 or any(
-            placer.on_normal(i, j) for i in common for j in common if i != j
+            placer.normals.on_normal(i, j) for i in common for j in common if i != j
         )
     return result
+
+
+Holds = Callable[[int, int, int, bool], bool]
 
 
 class Contractor:
@@ -56,6 +60,8 @@ class Contractor:
         short: (k, 2) edges that are to go.
         least: no shorter edge has a length; where one goes trim surfaces may come to lie on each
             other.
+        between: (t, 2) sites on both sides of each triangle.
+        holds: whether a vertex lies on a wall between two sites; also told if it is a sheet.
     """
 
     def __init__(
@@ -68,6 +74,8 @@ class Contractor:
         sheet: Bools,
         short: Ints,
         least: float,
+        between: Ints,
+        holds: Holds,
     ) -> None:
         self._points, self._sites, self._fixed, self._least = points, sites, fixed, least
         self._parent = np.arange(len(points))
@@ -78,6 +86,8 @@ class Contractor:
                 self._at[vertex].add(k)
         self._skeleton = set(np.flatnonzero(sheet).tolist())
         self._goal = set(np.flatnonzero(wanted).tolist())
+        self._between = [(int(a), int(b)) for a, b in between]
+        self._sheet, self._holds = sheet, holds
         self._short = {(min(a, b), max(a, b)) for a, b in short.tolist()}
 
     def run(self) -> Ints:
@@ -173,10 +183,12 @@ class Contractor:
             return False
         first = self._fixed[a] or (not self._fixed[b] and len(sites[a]) >= len(sites[b]))
         kept, gone = (a, b) if first else (b, a)
-        if not set(sites[gone]) <= set(sites[kept]):
-            if length > 0:
+        if length > 0 and not self._serves(kept, gone):
+            kept, gone = gone, kept
+            if self._fixed[gone] or not self._serves(kept, gone):
                 return False
-            sites[kept] = tuple(sorted({*sites[kept], *sites[gone]}))
+        more = sites[gone] if length <= 0 else [s for w in self._walls(kept, gone) for s in w[:2]]
+        sites[kept] = tuple(sorted({*sites[kept], *more}))
         self._parent[gone] = kept
         for k in list(at[gone]):
             at[gone].discard(k)
@@ -190,6 +202,17 @@ class Contractor:
                 at[kept].add(k)
         self._renamed(gone, kept)
         return True
+
+    def _serves(self, kept: int, gone: int) -> bool:
+        """Whether a vertex lies on all walls that are left at another one."""
+        if set(self._sites[gone]) <= set(self._sites[kept]):
+            return True
+        return all(self._holds(kept, *wall) for wall in self._walls(kept, gone))
+
+    def _walls(self, kept: int, gone: int) -> set[tuple[int, int, bool]]:
+        """The walls at a vertex that are left when it has become one with another."""
+        left = self._at[gone] - self._at[kept]
+        return {(*self._between[k], bool(self._sheet[k])) for k in left}
 
     def _linked(self, one: set[int], two: set[int], a: int, b: int) -> bool:
         """Whether two vertices with given triangles can become one without any other change."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.sampled.placing import Placer
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Bools, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,19 @@ class PlacedCurve:
         Raises:
             GeometryError: Newton's method fails at one of them.
         """
-        return _placed(self.placer, self.sites, points, "line")
+        if not len(points):
+            return np.array(points)
+        placed, good = self.try_place(points)
+        if not good.all():
+            names = " and ".join(self.placer.names(self.sites))
+            bad = place(points[~good][0])
+            raise GeometryError(f"a point near {bad} cannot be moved onto the line of {names}")
+        return placed
+
+    def try_place(self, points: Array) -> tuple[Array, Bools]:
+        """Points moved onto the curve (k, 3), and whether that succeeded (k,)."""
+        found = self.placer.place(self.sites, points)
+        return found.points, found.good
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,28 +59,16 @@ class NormalsSurface:
     towards: float
 
     def place(self, points: Array) -> Array:
-        """Move points (k, 3) onto the surface.
-
-        Raises:
-            GeometryError: Newton's method fails at one of them.
-        """
-        return _placed(self.placer, self.sites, points, "trim surface")
+        """Move points (k, 3) onto the surface, the shortest way where Newton's method finds it."""
+        if not len(points):
+            return np.array(points)
+        found = self.placer.place_on_normals(self.sites, points)
+        if not found.good.all():
+            far = ~found.good
+            found.points[far] = self.placer.normals.onto(*self.sites, points[far])
+        return found.points
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3)."""
-        across = self.placer.across(self.sites, points)
+        across = self.placer.normals.off(*self.sites, points)[0][1]
         return np.asarray(self.towards * across / norm(across)[:, None])
-
-
-def _placed(placer: Placer, sites: tuple[int, ...], points: Array, what: str) -> Array:
-    if not len(points):
-        return np.array(points)
-    found = placer.place(sites, points)
-    if not found.good.all():
-        names = placer.names(sites)
-        raise GeometryError(
-            f"a point near {{at}} cannot be moved onto the {what} of {' and '.join(names)}",
-            names,
-            at=points[~found.good][0],
-        )
-    return found.points

@@ -6,10 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.sampled.contracting import Contractor
+from decomp.sampled.contracting import Contractor, Holds
+from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints, norm
 
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
+CLOSE = 2e-6
+"""Vertices closer than this part of the size become one if all walls allow it: where a site is
+touched to second order a junction is known no better."""
 ONE = 1e-10
 """Vertices closer than this part of the size are one."""
 
@@ -28,6 +32,7 @@ class Extracted:
         links: (t, 2) on trim surfaces the sites of which one takes over, -1 on sheets.
         tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
         lost: (v,) vertices that could not be placed well.
+        pinned: (v,) vertices that stay where they are, as loci end there.
     """
 
     points: Array
@@ -39,6 +44,7 @@ class Extracted:
     links: Ints
     tet: Ints
     lost: Bools
+    pinned: Bools
 
     def short_edges(self, least: float) -> Ints:
         """The edges (k, 2) that are no longer than a length."""
@@ -47,7 +53,9 @@ class Extracted:
         return np.asarray(edges[length <= least])
 
 
-def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Extracted:
+def contracted(
+    given: Extracted, wanted: Bools, short: Ints, least: float, placer: Placer
+) -> Extracted:
     """Walls without some of their triangles and edges, as far as that changes nothing else.
 
     Args:
@@ -55,11 +63,21 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         wanted: (t,) triangles that are to go.
         short: (k, 2) edges that are to go.
         least: no shorter edge has a length.
+        placer: of the region.
     """
     sites = list(given.sites)
-    sheet, fixed = given.links[:, 0] < 0, given.node >= 0
+    sheet, fixed = given.links[:, 0] < 0, (given.node >= 0) | given.pinned
     become = Contractor(
-        given.points, sites, given.triangles, fixed, wanted, sheet, short, least
+        given.points,
+        sites,
+        given.triangles,
+        fixed,
+        wanted,
+        sheet,
+        short,
+        least,
+        given.between,
+        holding(given, placer),
     ).run()
     triangles = become[given.triangles]
     a, b, c = triangles.T
@@ -76,7 +94,25 @@ def contracted(given: Extracted, wanted: Bools, short: Ints, least: float) -> Ex
         given.links[rows],
         given.tet[rows],
         given.lost[used],
+        given.pinned[used],
     )
+
+
+def holding(given: Extracted, placer: Placer) -> Holds:
+    """Which vertices of walls lie on which walls."""
+    known: dict[tuple[int, int, int, bool], bool] = {}
+
+    def holds(vertex: int, a: int, b: int, sheet: bool) -> bool:
+        if {a, b} <= set(given.sites[vertex]):
+            return True
+        key = (vertex, a, b, sheet)
+        if key not in known:
+            known[key] = not given.lost[vertex] and placer.holds(
+                given.points[vertex], float(given.radius[vertex]), (a, b), sheet
+            )
+        return known[key]
+
+    return holds
 
 
 def _uncancelled(triangles: Ints, between: Ints) -> Ints:

@@ -17,16 +17,17 @@ from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
 from decomp.sampled.contracting import thin
 from decomp.sampled.crossings import crossings
-from decomp.sampled.extracted import ONE, SIDES, Extracted, contracted
+from decomp.sampled.extracted import CLOSE, ONE, SIDES, Extracted, contracted
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
+from decomp.sampled.normals import LOOSE
 from decomp.sampled.placing import Placer
 from decomp.tracing.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
 NEARER = 1e-10
 """A site that is nearer, or takes over from another, by this part of the size joins in."""
-MOST = 6
+MOST = 10
 """So many sites at most are as near to one vertex."""
 FAR = 2.0
 """A vertex is moved no farther than so many of the longest edges around it."""
@@ -93,11 +94,15 @@ class Extractor:
         edges = np.unique(sides, axis=0)
         edges = edges[~lost[edges].any(axis=1)]
         length = norm(points[edges[:, 0]] - points[edges[:, 1]])
-        same = length <= ONE * self._size
+        same = length <= CLOSE * self._size
         done = np.array(~raised)
         for row in np.argsort(length, kind="stable").tolist():
             a, b = edges[row].tolist()
-            if not (done[a] and done[b]) and sites[a] == sites[b] and not self._flat(sites[a]):
+            if (
+                not (done[a] and done[b])
+                and sites[a] == sites[b]
+                and not self._flat(sites[a], points[a])
+            ):
                 same[row] = True
                 done[[a, b]] = True
         return np.asarray(edges[same])
@@ -150,7 +155,7 @@ class Extractor:
                 groups.setdefault(sites[vertex], []).append(vertex)
             for own, members in groups.items():
                 rows = np.array(members, dtype=np.int64)
-                placed = self._placer.place(self._active(own), start[rows])
+                placed = self._placer.place(self._active(own, start[rows[0]]), start[rows])
                 good = placed.good & (norm(placed.points - start[rows]) <= FAR * reach[rows])
                 points[rows] = np.where(good[:, None], placed.points, start[rows])
                 radius[rows] = placed.radius
@@ -160,7 +165,7 @@ class Extractor:
             gap = np.abs(radius[left] - found.distance)
             for row in np.flatnonzero(gap > NEARER * self._size).tolist():
                 vertex, nearer = int(left[row]), int(found.site[row])
-                if self._flat(sites[vertex]):
+                if self._flat(sites[vertex], points[vertex]):
                     continue
                 if nearer < 0:
                     # outside, beside a hollow face: the edge between two sites is nearest
@@ -175,29 +180,27 @@ class Extractor:
             if not len(left):
                 break
         lost[left] = True
-        flat = [vertex for vertex in free.tolist() if self._flat(sites[vertex])]
+        flat = [vertex for vertex in free.tolist() if self._flat(sites[vertex], points[vertex])]
         radius[flat] = self._queries.depth(points[flat])[1]
 
-    def _flat(self, sites: tuple[int, ...]) -> bool:
-        """Whether all sites share one foot, so that there is no skeleton."""
-        return len(self._placer.contacts(sites)) == 1
+    def _flat(self, sites: tuple[int, ...], point: Array) -> bool:
+        """Whether all sites of a point (3,) share one foot, so that there is no skeleton."""
+        return len(self._placer.contacts(sites, point, LOOSE)) == 1
 
-    def _active(self, sites: tuple[int, ...]) -> tuple[int, ...]:
+    def _active(self, sites: tuple[int, ...], point: Array) -> tuple[int, ...]:
         """The sites that a vertex is placed between.
 
         Where all share a foot only what parts the cells of different faces counts. On the normal
         of a face at a vertex of it that and the edges there meet.
         """
-        if len(sites) <= 2 or not self._flat(sites):
+        if len(sites) <= 2 or not self._flat(sites, point):
             return sites
         placer = self._placer
-        for a in sites:
-            for b in sites:
-                if placer.on_normal(a, b):
-                    return tuple(s for s in sites if s in (a, b) or not placer.is_face(s))
+        if any(placer.normals.on_normal(a, b) for a, b in combinations(sites, 2)):
+            return placer.normals.at_vertex(sites, point)
         for k, a in enumerate(sites):
             for b in sites[k + 1 :]:
-                if self._owner[a] != self._owner[b] and placer.takes_over(a, b):
+                if self._owner[a] != self._owner[b] and placer.normals.takes_over(a, b):
                     return (a, b)
         return sites
 
@@ -221,12 +224,21 @@ class Extractor:
         triangles = triangles[kept]
         narrow = thin(points, sites, triangles, self._placer)
         between = found.between[kept]
-        linked = links(self._placer, self._owner, sites, node, triangles, between)
+        linked = links(self._placer, self._owner, points, radius, sites, node, triangles, between)
         # what lies between two sites may be missing from the labels, but the two do not touch
         narrow |= (linked[:, 0] >= 0) & (linked != between).any(axis=1)
         raised = (found.corners >= 0).sum(axis=1) < np.array([len(own) for own in sites])
         short = self._one(points, sites, triangles, raised & (node < 0) & ~lost, lost)
         whole = Extracted(
-            points, radius, node, sites, triangles, between, linked, found.tet[kept], lost
+            points,
+            radius,
+            node,
+            sites,
+            triangles,
+            between,
+            linked,
+            found.tet[kept],
+            lost,
+            np.zeros_like(lost),
         )
-        return contracted(whole, narrow, short, ONE * self._size)
+        return contracted(whole, narrow, short, ONE * self._size, self._placer)

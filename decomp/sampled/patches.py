@@ -98,7 +98,7 @@ class WallMaker:
         names, patches = [], []
         keys, which = np.unique(key, axis=0, return_inverse=True)
         for number, (a, b, one, two) in enumerate(keys.tolist()):
-            if not self._placer.takes_over(a, b):
+            if not self._placer.normals.takes_over(a, b):
                 at = own[which.reshape(-1) == number][0, 0]
                 raise GeometryError(
                     f"the cells of {' and '.join(self._placer.names((a, b)))} cannot be parted "
@@ -106,7 +106,7 @@ class WallMaker:
                 )
             # the surface's normal leads to what takes over, whichever of the two that is
             first, second = a, b
-            if self._placer.later(a, b) == a:
+            if self._placer.normals.later(a, b) == a:
                 first, second = b, a
             ahead = self._owner[second] == two or self._owner[first] == one
             towards = 1.0 if ahead else -1.0

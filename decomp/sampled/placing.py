@@ -13,9 +13,12 @@ from itertools import combinations
 import numpy as np
 
 from decomp.medial.incidence import Incidence
-from decomp.sites.site import SiteKind, faces_at
+from decomp.sampled.normals import TIGHT, Normals
+from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Bools, cross, dot, norm
+from decomp.tracing.loci import on_locus
+from decomp.tracing.queries import RegionQueries
+from decomp.vectors import Array, Bools, Ints, norm
 
 STEPS = 30
 EXACT = 2e-14
@@ -24,8 +27,12 @@ GOOD = 2e-13
 """Points at which they hold to this part of the size are placed."""
 RANK = 1e-7
 """Gradients that differ by less than this are equal."""
-DELTA = 1e-7
-"""Gradients of planes of normals are differences over this part of the size."""
+CHANGES = 3
+"""So often it is asked which sites take over from one another."""
+NOWHERE = 1e-9
+"""Points nearer to the boundary than this part of the size are on it."""
+APART = 0.1
+"""Feet farther apart than this part of the radius are two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,45 +54,17 @@ class Placer:
     """Places points of one region.
 
     Args:
-        incidence: of the region.
+        incidence, queries: of the region.
     """
 
-    def __init__(self, incidence: Incidence) -> None:
+    def __init__(self, incidence: Incidence, queries: RegionQueries) -> None:
         self._it = incidence
         self._size = incidence.boundary.diagonal
-
-    def takes_over(self, a: int, b: int) -> bool:
-        """Whether one of two sites is an edge or a vertex of the other.
-
-        Where both are as near, their feet are one.
-        """
-        one, two = sorted((self._it.sites[a], self._it.sites[b]), key=lambda s: s.kind.value)
-        if one.kind is two.kind:
-            return False
-        boundary = self._it.boundary
-        if SiteKind.FACE in (one.kind, two.kind):
-            face, other = (one, two) if one.kind is SiteKind.FACE else (two, one)
-            return face.index in faces_at(boundary, other)
-        edge, vertex = (one, two) if one.kind is SiteKind.EDGE else (two, one)
-        return vertex.index in (boundary.edges[edge.index].vertices or ())
+        self.normals = Normals(incidence, queries)
 
     def is_face(self, site: int) -> bool:
         """Whether a site is a face."""
         return self._it.sites[site].kind is SiteKind.FACE
-
-    def on_normal(self, a: int, b: int) -> bool:
-        """Whether two sites are as near along one normal at a vertex alone.
-
-        They are a face and a vertex of it, or two edges that end there.
-        """
-        one, two = self._it.sites[a], self._it.sites[b]
-        kinds = {one.kind, two.kind}
-        if kinds == {SiteKind.FACE, SiteKind.VERTEX}:
-            return self.takes_over(a, b)
-        if kinds != {SiteKind.EDGE} or a == b:
-            return False
-        first, second = (set(self._it.boundary.edges[s.index].vertices or ()) for s in (one, two))
-        return bool(first & second)
 
     def between(self, sites: tuple[int, ...], point: Array) -> int:
         """The edge at which two of some sites meet that is nearest to a point (3,), -1 for none."""
@@ -100,23 +79,97 @@ class Placer:
         away = norm(self._it.feet(left, point[None])[0] - point)
         return left[int(np.argmin(away))]
 
-    def later(self, a: int, b: int) -> int:
-        """The one of two sites that takes over from the other: the vertex, or else the edge."""
-        order = (SiteKind.FACE, SiteKind.EDGE, SiteKind.VERTEX)
-        return max((a, b), key=lambda site: order.index(self._it.sites[site].kind))
+    def contacts(
+        self, sites: tuple[int, ...], point: Array | None = None, within: float = TIGHT
+    ) -> list[set[int]]:
+        """Sites that share a foot, together.
 
-    def contacts(self, sites: tuple[int, ...]) -> list[set[int]]:
-        """Sites that share a foot, together."""
-        found: list[set[int]] = []
-        for site in sites:
-            near = [g for g in found if any(self.takes_over(site, other) for other in g)]
-            found = [g for g in found if g not in near] + [{site}.union(*near)]
-        return found
+        Args:
+            sites: of one point.
+            point: (3,) that is as near to all; without it all are together that can be.
+            within: radians by which the way to it may be off the normals.
+        """
+        count = len(sites)
+        if point is None:
+            linked = np.zeros((count, count), dtype=np.bool_)
+            for i, j in combinations(range(count), 2):
+                linked[i, j] = linked[j, i] = self.normals.takes_over(sites[i], sites[j])
+            return [{sites[i] for i in own} for own in _joined(linked)]
+        linked = self.normals.linked(sites, point, within)
+        groups = _joined(linked)
+        return [
+            {sites[i] for i in own} for each in groups for own in self._parted(sites, each, point)
+        ]
+
+    def _parted(self, sites: tuple[int, ...], group: list[int], point: Array) -> list[list[int]]:
+        """Columns of sites that take over from one another, parted where their feet are apart.
+
+        A round face whose axis holds the point has no foot of its own, and may link others' feet.
+        """
+        if len(group) < 3:
+            return [group]
+        own = [sites[i] for i in group]
+        feet = self._it.feet(own, point[None])[0]
+        free = [
+            on_locus(self._it.boundary, self._it.sites, [s], point[None], APART)[0] for s in own
+        ]
+        radius = float(norm(feet - point).min())
+        result: list[list[int]] = []
+        for column, foot, loose in zip(group, feet, free, strict=True):
+            if loose:
+                continue
+            for other in result:
+                at = feet[group.index(other[0])]
+                if float(norm(foot - at)) <= APART * radius:
+                    other.append(column)
+                    break
+            else:
+                result.append([column])
+        left = [column for column, loose in zip(group, free, strict=True) if loose]
+        if not result:
+            return [group]
+        result[0] += left
+        return result
 
     def place(self, sites: tuple[int, ...], points: Array) -> Placed:
         """Move points (k, 3) the shortest way to where all of some sites are equally near."""
+        points = np.asarray(points)
+        result = Placed(np.array(points), np.zeros(len(points)), np.zeros(len(points), np.bool_))
+        before: Ints = np.full(len(points), -1, dtype=np.int64)
+        for _ in range(CHANGES):
+            # on the way it can turn out that one site takes over from another, or does not
+            codes = self.normals.pattern(sites, result.points)
+            for code in np.unique(codes[codes != before]):
+                rows = np.flatnonzero((codes == code) & (codes != before))
+                links = self._links(sites, int(code), result.points[rows[0]])
+                found = self._placed(sites, result.points[rows], links)
+                result.points[rows], result.radius[rows] = found.points, found.radius
+                result.good[rows] = found.good
+            if (codes == before).all():
+                break
+            before = codes
+        return result
+
+    def holds(self, point: Array, radius: float, pair: tuple[int, int], sheet: bool) -> bool:
+        """Whether a point (3,) of some radius lies on the sheet, or trim surface, of two sites."""
+        off = 0.0
+        for site in pair:
+            feet = self._it.feet([site], point[None])[:, 0]
+            distance = float(self._field(site, point[None], feet)[0][0])
+            off = max(off, abs(distance - radius))
+        if off > GOOD * self._size:
+            return False
+        flat = radius <= NOWHERE * self._size
+        return sheet or flat or float(self.normals.slant(*pair, point[None])[0]) <= TIGHT
+
+    def place_on_normals(self, sites: tuple[int, int], points: Array) -> Placed:
+        """Move points (k, 3) to where one of two sites takes over from the other."""
+        return self._placed(sites, np.asarray(points), [(0, 1, True)])
+
+    def _placed(
+        self, sites: tuple[int, ...], points: Array, links: list[tuple[int, int, bool]]
+    ) -> Placed:
         x = np.array(points)
-        links = self._links(sites)
         feet = self._it.feet(sites, x)
         best, worst = np.array(x), np.full(len(x), np.inf)
         for _ in range(STEPS):
@@ -138,37 +191,21 @@ class Placer:
         radius = self._field(sites[0], best, feet[:, 0])[0]
         return Placed(best, radius, worst <= GOOD * self._size)
 
-    def across(self, sites: tuple[int, int], points: Array) -> Array:
-        """Normals (k, 3), of no certain length, of the surface where one site takes over.
-
-        They point to the side of the site that takes over (`later`).
-        """
-        feet = self._it.feet(sites, points)
-        return self._off_normals(sites[0], sites[1], points, feet)[0][1]
-
     def names(self, sites: tuple[int, ...]) -> list[str]:
         """What sites are called in messages."""
         return [self._it.sites[site].name for site in sites]
 
-    def _links(self, sites: tuple[int, ...]) -> list[tuple[int, int, bool]]:
+    def _links(
+        self, sites: tuple[int, ...], code: int, point: Array
+    ) -> list[tuple[int, int, bool]]:
         """Pairs of columns that tie all sites together, and whether one takes over."""
         pairs = list(combinations(range(len(sites)), 2))
-        trims = [(i, j) for i, j in pairs if self.takes_over(sites[i], sites[j])]
-        group = list(range(len(sites)))
-
-        def joined(i: int, j: int) -> bool:
-            if group[i] == group[j]:
-                return False
-            old = group[j]
-            for k, each in enumerate(group):
-                if each == old:
-                    group[k] = group[i]
-            return True
-
-        for i, j in trims:
-            joined(i, j)
-        links = [(i, j, True) for i, j in trims]
-        return links + [(i, j, False) for i, j in pairs if joined(i, j)]
+        links = [(i, j, True) for bit, (i, j) in enumerate(pairs) if code >> bit & 1]
+        linked = np.zeros((len(sites), len(sites)), dtype=np.bool_)
+        for i, j, _ in links:
+            linked[i, j] = linked[j, i] = True
+        groups = [own for each in _joined(linked) for own in self._parted(sites, each, point)]
+        return links + [(one[0], two[0], False) for one, two in zip(groups, groups[1:])]
 
     def _constraints(
         self,
@@ -189,7 +226,7 @@ class Placer:
                 values.append(fields[i][0] - fields[j][0])
                 slopes.append(fields[i][1] - fields[j][1])
                 continue
-            for value, slope in self._off_normals(sites[i], sites[j], x, feet[:, [i, j]]):
+            for value, slope in self.normals.off(sites[i], sites[j], x):
                 values.append(value)
                 slopes.append(slope)
         return np.stack(values, axis=1), np.stack(slopes, axis=1)
@@ -199,39 +236,15 @@ class Placer:
         found = site_fields(self._it.boundary, self._it.sites, which, x, feet)
         return found.distance, found.gradient, found.foot
 
-    def _off_normals(self, a: int, b: int, x: Array, feet: Array) -> list[tuple[Array, Array]]:
-        """How far points are off the normals at which one site takes over, with gradients."""
-        it = self._it
-        one, two = it.sites[a], it.sites[b]
-        if SiteKind.VERTEX in (one.kind, two.kind):
-            vertex, other = (one, two) if one.kind is SiteKind.VERTEX else (two, one)
-            at = it.boundary.vertices[vertex.index].point
-            if other.kind is SiteKind.EDGE:
-                ends = it.boundary.edges[other.index].vertices
-                sense = -1.0 if ends is not None and ends[0] == vertex.index else 1.0
-                return [_plane(x, at, sense * it.tangent(other.index, at))]
-            normal = it.inward(other.index, at[None])[0]
-            u = np.eye(3)[int(np.argmin(np.abs(normal)))]
-            u = u - (u @ normal) * normal
-            u /= norm(u)
-            return [_plane(x, at, u), _plane(x, at, cross(normal, u))]
-        edge, own, column = (a, two, 0) if one.kind is SiteKind.EDGE else (b, one, 1)
-        near = feet[:, column]
-        faces = it.boundary.edges[it.sites[edge].index].faces
-        face = own.index
-        beyond = faces[1] if faces[0] == face else faces[0]
 
-        def off(points: Array) -> Array:
-            foot = self._field(edge, points, near)[2]
-            # across the edge, along the face and away from it: the other face's normal leads there
-            normal, second = it.inward(face, foot), it.inward(beyond, foot)
-            across = second - dot(second, normal)[:, None] * normal
-            return np.asarray(dot(points - foot, across / norm(across)[:, None]))
-
-        h = DELTA * self._size
-        steps = [off(x + h * way) - off(x - h * way) for way in np.eye(3)]
-        return [(off(x), np.stack(steps, axis=1) / (2 * h))]
-
-
-def _plane(x: Array, at: Array, normal: Array) -> tuple[Array, Array]:
-    return (x - at) @ normal, np.repeat(normal[None], len(x), axis=0)
+def _joined(linked: Bools) -> list[list[int]]:
+    """Columns that links (m, m) join, directly or not."""
+    left, found = list(range(len(linked))), []
+    while left:
+        own = [left.pop(0)]
+        for column in own:
+            more = [k for k in left if linked[column, k]]
+            left = [k for k in left if k not in more]
+            own += more
+        found.append(sorted(own))
+    return found

@@ -17,8 +17,9 @@ from dataclasses import dataclass, replace
 from time import monotonic
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.certificate.certificate import VOLUME, explained, shortcomings
+from decomp.certificate.certificate import VOLUME, Certified, explained, shortcomings
 from decomp.complex.refine import refined
 from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer
@@ -26,18 +27,19 @@ from decomp.geometry import Geometry
 from decomp.medial.result import RegionSkeleton, Skeleton
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contracting import thin
-from decomp.sampled.extracted import ONE, Extracted, contracted
+from decomp.sampled.extracted import CLOSE, ONE, Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.jumps import without_jump
 from decomp.sampled.labels import Labeller
+from decomp.sampled.loci import pinned_ends
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.smoothing import unfolded
 from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
 from decomp.tetra.cells import site_owners
 from decomp.tetra.child import MeshingError, TimeLimit
 from decomp.tracing.queries import region_queries
-from decomp.vectors import norm
+from decomp.vectors import Array, Ints, norm
 
 FLOORS = (12.0, 18.0, 27.0, 40.0, 60.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
@@ -52,6 +54,9 @@ FINEST = 0.01
 """to this part of the floor at the most."""
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
+LOOSEST = 8.0
+"""Where refining cannot reach the tolerance, so many times of it, and of what is allowed for volumes,
+are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 8
@@ -128,34 +133,54 @@ def _attempt(
         where = ", ".join(f"{x:.6g}" for x in at)
         raise GeometryError(f"{lost} points of walls have no place, one near ({where})")
     tell("triangulating sheets", share)
-    shown = _smooth(geometry, given, mesh, tools, extracted)
+    shown = _smooth(geometry, given, mesh, tools, extracted, floor)
     result = _Try(None, ["nothing was tried"])
-    for _ in range(FINENESSES):
+    for left in reversed(range(FINENESSES)):
         tell("refining", share)
-        made, _ = refined(shown.complex, fineness * geometry.diagonal)
+        made, kept = refined(shown.complex, fineness * geometry.diagonal, lenient=True)
         tell("measuring", share)
-        described = Described(geometry, given, tools, shown, made)
-        regions, failures, short = [], [], set()
-        excess = 1.0
-        for number in range(len(geometry.regions)):
-            region, found = described.region(number)
-            regions.append(region)
-            short |= set(shortcomings(found.certificate, tolerance))
-            excess = max(
-                excess,
-                found.certificate.volume_error / VOLUME,
-                found.certificate.chord_error / tolerance,
-            )
-            lines = [str(line) for line in explained(found, tolerance, geometry.sites)]
-            lines += without_jump(made, described.radius, region, geometry.sites)
-            failures += [f"region {region.name}: {line}" for line in lines]
-        result = _Try(None, failures)
-        if not failures:
-            return _Try(_skeleton(geometry, tolerance, described, regions), [])
-        if not short or not short <= {"volume_error", "chord_error"}:
+        described = Described(geometry, given, tools, shown, made, kept)
+        regions = [described.region(number) for number in range(len(geometry.regions))]
+        result = _judged(geometry, tolerance, described, regions)
+        figures = [found.certificate for _, found in regions]
+        short = {name for each in figures for name in shortcomings(each, tolerance)}
+        if not left or not short or not short <= {"volume_error", "chord_error"}:
             break
+        excess = max(
+            max(each.volume_error / VOLUME, each.chord_error / tolerance) for each in figures
+        )
         fineness = float(finer(np.array([fineness]), np.array([excess]))[0])
     return result
+
+
+def _judged(
+    geometry: Geometry,
+    tolerance: float,
+    described: Described,
+    regions: list[tuple[RegionSkeleton, Certified]],
+) -> _Try:
+    """The skeleton with the tolerance that it holds, if that is no more than `LOOSEST` allows."""
+    times = max(
+        max(
+            found.certificate.chord_error / tolerance,
+            found.certificate.coverage / (2 * tolerance),
+            found.certificate.volume_error / VOLUME,
+            1.0,
+        )
+        for _, found in regions
+    )
+    times = min(times, LOOSEST)
+    stated, volume = times * tolerance, times * VOLUME
+    failures = []
+    for region, found in regions:
+        lines = [str(line) for line in explained(found, stated, geometry.sites, volume)]
+        if not lines:
+            mesh, radius = described.mesh, described.radius
+            lines = without_jump(mesh, radius, region, geometry.sites)
+        failures += [f"region {region.name}: {line}" for line in lines]
+    if failures:
+        return _Try(None, failures)
+    return _Try(_skeleton(geometry, stated, described, [region for region, _ in regions]), [])
 
 
 def _smooth(
@@ -164,12 +189,20 @@ def _smooth(
     mesh: Bisected,
     tools: list[RegionTools],
     extracted: list[Extracted],
+    floor: float,
 ) -> Drawn:
     """The complex, smoothed; triangles that stay folded are contracted."""
     boundary = len(given.plan.complex.patches)
+    extracted = [
+        pinned_ends(tool.incidence, tool.loci, found)
+        for tool, found in zip(tools, extracted, strict=True)
+    ]
+    near: Array | None = None
     for left in reversed(range(UNFOLDINGS)):
-        shown = drawn(geometry, given, mesh, tools, extracted)
-        smooth, folded = unfolded(shown.complex, boundary)
+        shown = drawn(geometry, given, mesh, tools, extracted, floor / 2)
+        smooth, folded = unfolded(
+            shown.complex, boundary, _pinned(shown, extracted), _at(shown, near)
+        )
         if not left or not len(folded):
             break
         bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
@@ -180,9 +213,27 @@ def _smooth(
             wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
             wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
             least = ONE * geometry.diagonal
-            fewer.append(contracted(moved, wanted, moved.short_edges(least), least))
+            fewer.append(
+                contracted(
+                    moved, wanted, moved.short_edges(CLOSE * geometry.diagonal), least, tool.placer
+                )
+            )
         extracted = fewer
+        near = smooth.points[np.unique(folded)]
     return replace(shown, complex=smooth)
+
+
+def _at(shown: Drawn, places: Array | None) -> Ints | None:
+    """The points of a complex that are nearest to some places (k, 3)."""
+    if places is None:
+        return None
+    return np.unique(cKDTree(shown.complex.points).query(places)[1])
+
+
+def _pinned(shown: Drawn, extracted: list[Extracted]) -> Ints:
+    """The points that stay where they are."""
+    pairs = zip(shown.vertices, extracted, strict=True)
+    return np.concatenate([vertices[found.pinned] for vertices, found in pairs])
 
 
 def _walls(
@@ -250,4 +301,5 @@ def _skeleton(
         described.mesh,
         described.radius,
         tuple(regions),
+        geometry.model.source,
     )

@@ -9,20 +9,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from decomp.complex.errors_of import triangle_normals
+from decomp.complex.errors_of import triangle_errors
 from decomp.complex.model import Complex, LineKind
 from decomp.complex.refine_elements import Elements
-from decomp.errors import GeometryError
-from decomp.vectors import Array, Bools, Ints, dot
+from decomp.complex.refine_lenient import LenientElements
+from decomp.vectors import Array, Bools, Ints
 
 ALONG = 12
 """Rounds in which only what is on lines moves, so that it comes to stand in order."""
 ROUNDS, LEAST = 6, 3
 """Rounds at most, and at least."""
+RINGS = 2
+"""Only so far around some triangles vertices are moved."""
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
-def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
+def unfolded(
+    given: Complex, first: int, pinned: Ints, near: Ints | None = None
+) -> tuple[Complex, Ints]:
     """Smooth a complex until no triangle is folded, or for so many rounds.
 
     Returns:
@@ -31,47 +35,46 @@ def unfolded(given: Complex, first: int) -> tuple[Complex, Ints]:
     Args:
         given: with all its vertices in their places.
         first: the number of the first patch that is a wall's.
+        pinned: points that stay where they are.
+        near: only these points, and what is around them, are moved; if not given, all.
     """
-    elements = Elements(given)
+    elements = LenientElements(given)
     triangles = np.concatenate([patch.triangles for patch in given.patches])
     patch = np.repeat(np.arange(len(given.patches)), [len(p.triangles) for p in given.patches])
     element, pairs = _movable(given, elements, triangles, patch)
+    element[pinned] = -1
+    if near is not None:
+        some = np.zeros(len(given.points), dtype=np.bool_)
+        some[near] = True
+        for _ in range(RINGS):
+            some[triangles[some[triangles].any(axis=1)]] = True
+        element[~some] = -1
     points = np.array(given.points)
     numbers = elements.of_patch[patch]
     for _ in range(ALONG):
         _move(elements, element, np.flatnonzero(element >= elements.first_curve), points, pairs)
+    on_walls = patch >= first
     for round_ in range(ROUNDS):
-        if round_ >= LEAST and not _folded(elements, numbers, points[triangles]).any():
+        bad = on_walls & _folded(elements, numbers, points[triangles])
+        if round_ >= (LEAST if near is None else 1) and not bad.any():
             break
         _move(elements, element, np.flatnonzero(element >= 0), points, pairs)
-    bad = _folded(elements, numbers, points[triangles]) & (patch >= first)
+    bad = on_walls & _folded(elements, numbers, points[triangles])
     return replace(given, points=points), triangles[bad]
 
 
-def _move(elements: Elements, element: Ints, moving: Ints, points: Array, pairs: Ints) -> None:
-    """Move some points to the middle of their neighbours, on their elements."""
-    if not len(moving):
-        return
-    wanted = _middles(points, pairs)[moving]
-    try:
-        points[moving] = elements.place(element[moving], wanted)
-    except GeometryError:
-        # one that has no place there keeps all others from moving: each for itself
-        for row, node in enumerate(moving.tolist()):
-            points[node] = _one(elements, int(element[node]), wanted[row], points[node])
+def _move(
+    elements: LenientElements, element: Ints, moving: Ints, points: Array, pairs: Ints
+) -> None:
+    """Move some points to the middle of their neighbours, on their elements, where they can be."""
+    if len(moving):
+        placed, good = elements.attempt(element[moving], _middles(points, pairs)[moving])
+        points[moving[good]] = placed[good]
 
 
-def _one(elements: Elements, element: int, wanted: Array, before: Array) -> Array:
-    try:
-        return np.asarray(elements.place(np.array([element]), wanted[None])[0])
-    except GeometryError:
-        return before
-
-
-def _folded(elements: Elements, numbers: Ints, corners: Array) -> Bools:
-    """Whether triangles (k, 3, 3) oppose their surfaces' normals at their corners."""
-    normals = elements.normal(np.repeat(numbers, 3), corners.reshape(-1, 3)).reshape(-1, 3, 3)
-    return np.asarray(dot(normals.mean(axis=1), triangle_normals(corners)) <= 0)
+def _folded(elements: LenientElements, numbers: Ints, corners: Array) -> Bools:
+    """Whether triangles (k, 3, 3) oppose their surfaces' normals, as the certificate asks."""
+    return np.asarray(triangle_errors(elements, numbers, corners)[1] <= 0)
 
 
 def _movable(given: Complex, elements: Elements, triangles: Ints, patch: Ints) -> tuple[Ints, Ints]:

@@ -13,13 +13,24 @@ from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
+from decomp.medial.curve_elements import LocusCurve
 from decomp.medial.incidence import Incidence
-from decomp.medial.result import Junction, Method, Parity, RegionSkeleton, Sheet, SkeletonLine
+from decomp.medial.reflexive import ReflexivePart, reflexive_parts
+from decomp.medial.result import (
+    Junction,
+    Method,
+    Parity,
+    Reflexive,
+    RegionSkeleton,
+    Sheet,
+    SkeletonLine,
+)
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.elements import PlacedCurve
 from decomp.sampled.extracted import Extracted
 from decomp.sampled.interior import Interior
 from decomp.sampled.lines import Chain, chains
+from decomp.sampled.loci import Run, runs, welded
 from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
@@ -34,6 +45,7 @@ class RegionTools:
     incidence: Incidence
     placer: Placer
     owner: dict[int, int]
+    loci: tuple[ReflexivePart, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +58,7 @@ class Drawn:
         walls: of each region.
         first: the number of each region's first patch.
         vertices: for each region the point that each of its walls' vertices is.
+        loci: of each region, with their points; what is of dimension 1 is a line behind `chains`.
     """
 
     complex: Complex
@@ -53,6 +66,7 @@ class Drawn:
     walls: tuple[RegionWalls, ...]
     first: tuple[int, ...]
     vertices: tuple[Ints, ...]
+    loci: tuple[tuple[tuple[Run, Ints], ...], ...]
 
 
 def drawn(
@@ -61,6 +75,7 @@ def drawn(
     mesh: Bisected,
     tools: Sequence[RegionTools],
     extracted: Sequence[Extracted],
+    spacing: float,
 ) -> Drawn:
     """Put boundaries and walls together.
 
@@ -69,6 +84,7 @@ def drawn(
         given: the boundaries' elements.
         mesh: the tetrahedra whose triangles show the boundaries.
         tools, extracted: of each region.
+        spacing: about the length of chords of loci.
     """
     used, corners = np.unique(mesh.triangles, return_inverse=True)
     number = np.full(len(mesh.points), -1, dtype=np.int64)
@@ -94,7 +110,27 @@ def drawn(
         walls.append(made)
         first.append(len(patches))
         patches += [*made.sheet_patches, *made.trim_patches]
-    return _with_lines(given, tools, every, patches, walls, first, vertices)
+    loci = []
+    nodes = np.arange(len(used))
+    for tool, made in zip(tools, walls, strict=True):
+        size = tool.incidence.boundary.diagonal
+        none = np.empty((0, 3), dtype=np.int64)
+        sheets = np.concatenate([none, *(patch.triangles for patch in made.sheet_patches)])
+        found_runs = runs(tool.loci, every, sheets, nodes, size, spacing)
+        new, chains_of = welded(found_runs, size, len(every))
+        every = np.concatenate([every, new])
+        loci.append(tuple(zip(found_runs, chains_of, strict=True)))
+    shown = _with_lines(given, tools, every, patches, walls, first, vertices)
+    return replace(shown, loci=tuple(loci), complex=_with_loci(shown.complex, loci))
+
+
+def _with_loci(given: Complex, loci: Sequence[Sequence[tuple[Run, Ints]]]) -> Complex:
+    lines = list(given.lines)
+    for own in loci:
+        for run, vertices in own:
+            if run.part.locus is not None and len(vertices) > 1:
+                lines.append(Line(LineKind.REFLEXIVE, LocusCurve(run.part.locus), vertices))
+    return replace(given, lines=tuple(lines))
 
 
 def _with_lines(
@@ -148,6 +184,7 @@ def _with_lines(
         tuple(walls),
         tuple(first),
         tuple(vertices),
+        (),
     )
 
 
@@ -180,9 +217,11 @@ class Described:
         tools: Sequence[RegionTools],
         shown: Drawn,
         mesh: Complex,
+        number: Ints,
     ) -> None:
+        """Args: `number` tells the new number of each of `shown`'s points in `mesh`."""
         self._geometry, self._given, self._tools = geometry, given, tools
-        self._shown, self.mesh = shown, mesh
+        self._shown, self.mesh, self._number = shown, mesh, number
         self.radius = self._radius()
 
     def _radius(self) -> Array:
@@ -206,6 +245,7 @@ class Described:
         owner = self._tools[number].owner
         of_faces = face_cells(mesh, boundary, face_sides, sheets, trims, owner)
         cells = skeleton_cells(mesh, boundary, of_faces, trims)
+        reflexive = self._reflexive(number)
         evidence = Evidence(
             geometry.index,
             number,
@@ -213,7 +253,7 @@ class Described:
             mesh,
             self.radius,
             sheets,
-            (),
+            reflexive,
             face_sides,
             cells,
             of_faces,
@@ -228,7 +268,7 @@ class Described:
             tuple(line for kind, line in lines if kind is LineKind.TRIM),
             tuple(line for kind, line in lines if kind is LineKind.RIM),
             self._junctions(number, lines),
-            (),
+            reflexive,
             face_sides,
             cells,
             of_faces,
@@ -273,6 +313,24 @@ class Described:
             found.append((_kind(sheets), line))
         return found
 
+    def _reflexive(self, region: int) -> tuple[Reflexive, ...]:
+        number = len(self._shown.chains)
+        found = []
+        for k, own in enumerate(self._shown.loci):
+            for run, vertices in own:
+                site = run.part.sites[0]
+                if len(vertices) > 1:
+                    if k == region:
+                        at = self.mesh.points[self.mesh.lines[number].vertices]
+                        length = float(norm(np.diff(at, axis=0)).sum())
+                        found.append(Reflexive(site, 1, number, None, length, run.closed))
+                    number += 1
+                elif k == region:
+                    found.append(
+                        Reflexive(site, 0, None, int(self._number[vertices[0]]), 0.0, False)
+                    )
+        return tuple(found)
+
     def _junctions(
         self, region: int, lines: Sequence[tuple[LineKind, SkeletonLine]]
     ) -> tuple[Junction, ...]:
@@ -294,9 +352,10 @@ class Described:
 
 def tools_of(geometry: Geometry, number: int, owner: Ints) -> RegionTools:
     """The tools of a region."""
-    region_queries(geometry.index, number)
+    queries = region_queries(geometry.index, number)
     incidence = Incidence(geometry.regions[number], geometry.sites, number)
     own = {
         site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
-    return RegionTools(incidence, Placer(incidence), own)
+    loci = tuple(reflexive_parts(geometry.index, incidence))
+    return RegionTools(incidence, Placer(incidence, queries), own, loci)
