@@ -48,7 +48,7 @@ COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
 EPSILON = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-AGAIN = 10
+AGAIN = 3
 """So often tetrahedra are refined around walls that cannot be placed,"""
 FINEST = 0.01
 """to this part of the floor at the most."""
