@@ -48,7 +48,7 @@ COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
 EPSILON = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-AGAIN = 3
+AGAIN = 7
 """So often tetrahedra are refined around walls that cannot be placed,"""
 FINEST = 0.01
 """to this part of the floor at the most."""
@@ -59,7 +59,7 @@ LOOSEST = 8.0
 are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
-UNFOLDINGS = 8
+UNFOLDINGS = 4
 """So often walls are smoothed, and what is still folded then is contracted."""
 LIMIT, FILLING = 180.0, 300.0
 """Seconds after which no further try is begun, and that TetWild may compute in each."""
@@ -277,11 +277,29 @@ def _refined_where_lost(mesh: Bisected, found: list[Extracted], floor: float) ->
     wanted = np.zeros(len(mesh.tets), dtype=np.bool_)
     for number, walls in enumerate(found):
         rows = np.flatnonzero(mesh.region == number)
-        wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
+        if not len(walls.passed):
+            wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
     corners = mesh.points[mesh.tets]
     wanted &= norm(corners - corners[:, [1, 2, 3, 0]]).max(axis=1) > FINEST * floor
     mesh.shorten(wanted)
-    return bool(wanted.any())
+    return bool(wanted.any()) | _cut_through(mesh, found)
+
+
+def _cut_through(mesh: Bisected, found: list[Extracted]) -> bool:
+    """Put nodes into zones that edges lead through; whether there were any."""
+    edges, which = mesh.edges()
+    number = {(a, b): k for k, (a, b) in enumerate(edges.tolist())}
+    chosen = np.zeros(len(edges), dtype=np.bool_)
+    at: Array = mesh.points[edges].mean(axis=1)
+    for walls in found:
+        for pair, point in zip(np.sort(walls.passed, axis=1).tolist(), walls.passing, strict=True):
+            k = number.get((pair[0], pair[1]))
+            if k is not None:
+                chosen[k], at[k] = True, point
+    chosen &= ~mesh.boundary_edges(edges)
+    if chosen.any():
+        mesh.halve(edges, which, chosen, at)
+    return bool(chosen.any())
 
 
 def _skeleton(
