@@ -19,7 +19,13 @@ from decomp.complex.flips import flip
 from decomp.complex.model import Complex
 from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
-from decomp.complex.refine_split import FOLDED, split_inside, split_leaning, split_lines, split_twins
+from decomp.complex.refine_split import (
+    FOLDED,
+    split_inside,
+    split_leaning,
+    split_lines,
+    split_twins,
+)
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Ints, place, positive
 
@@ -64,7 +70,9 @@ def refined(
     """
     for each in np.unique(tolerance):
         positive(each, "tolerance")
-    mesh = Mesh(given, np.broadcast_to(np.asarray(tolerance, np.float64), len(given.patches)), lenient)
+    mesh = Mesh(
+        given, np.broadcast_to(np.asarray(tolerance, np.float64), len(given.patches)), lenient
+    )
     _check(mesh)
     _split(mesh, progress)
     collapse(mesh)

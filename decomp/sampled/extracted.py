@@ -72,8 +72,16 @@ def contracted(
     sites = list(given.sites)
     sheet, fixed = given.links[:, 0] < 0, (given.node >= 0) | given.pinned
     become = Contractor(
-        given.points, sites, given.triangles, fixed, wanted, sheet, short, least,
-        given.between, holding(given, placer)
+        given.points,
+        sites,
+        given.triangles,
+        fixed,
+        wanted,
+        sheet,
+        short,
+        least,
+        given.between,
+        holding(given, placer),
     ).run()
     triangles = become[given.triangles]
     a, b, c = triangles.T

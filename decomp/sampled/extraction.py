@@ -103,7 +103,11 @@ class Extractor:
         done = np.array(~raised)
         for row in np.argsort(length, kind="stable").tolist():
             a, b = edges[row].tolist()
-            if not (done[a] and done[b]) and sites[a] == sites[b] and not self._flat(sites[a], points[a]):
+            if (
+                not (done[a] and done[b])
+                and sites[a] == sites[b]
+                and not self._flat(sites[a], points[a])
+            ):
                 same[row] = True
                 done[[a, b]] = True
         return np.asarray(edges[same])
@@ -236,6 +240,17 @@ class Extractor:
         sides = np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)
         short = np.concatenate([short, sides[lost[sides].any(axis=1)]])
         whole = Extracted(
-            points, radius, node, sites, triangles, between, linked, found.tet[kept], lost, np.zeros_like(lost), passed, passing
+            points,
+            radius,
+            node,
+            sites,
+            triangles,
+            between,
+            linked,
+            found.tet[kept],
+            lost,
+            np.zeros_like(lost),
+            passed,
+            passing,
         )
         return contracted(whole, narrow, short, ONE * self._size, self._placer)

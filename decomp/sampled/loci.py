@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
@@ -17,7 +18,7 @@ from decomp.medial.incidence import Incidence
 from decomp.medial.reflexive import ReflexivePart
 from decomp.sampled.extracted import SIDES, Extracted
 from decomp.tracing.fields import site_fields
-from decomp.vectors import Array, Bools, Ints, norm
+from decomp.vectors import Array, Ints, norm
 
 SAME = 1e-9
 """Points closer than this part of the size are one."""
@@ -112,7 +113,10 @@ def runs(
         spacing: about the length of chords.
     """
     used = np.unique(triangles)
-    edges = {tuple(e) for e in np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0).tolist()}
+    edges = {
+        tuple(e)
+        for e in np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0).tolist()
+    }
     candidates = np.concatenate([used, np.setdiff1d(fixed, used)])
     tree = cKDTree(points[candidates]) if len(candidates) else None
     found = []
@@ -155,7 +159,7 @@ def _pieces(
         if stops[-1][0] < part.end - SAME * size:
             stops.append((part.end, -1))
     found = []
-    for (a, v), (b, w) in zip(stops[:-1], stops[1:], strict=True):
+    for (a, v), (b, w) in pairwise(stops):
         if v < 0 or w < 0 or (min(v, w), max(v, w)) not in edges:
             found.append(_run(part, a, b, v, w, spacing, False))
     return found

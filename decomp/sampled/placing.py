@@ -8,7 +8,7 @@ vanishes to second order, is replaced by the point's distance from that plane of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -97,7 +97,9 @@ class Placer:
             return [{sites[i] for i in own} for own in _joined(linked)]
         linked = self.normals.linked(sites, point, within)
         groups = _joined(linked)
-        return [{sites[i] for i in own} for each in groups for own in self._parted(sites, each, point)]
+        return [
+            {sites[i] for i in own} for each in groups for own in self._parted(sites, each, point)
+        ]
 
     def _parted(self, sites: tuple[int, ...], group: list[int], point: Array) -> list[list[int]]:
         """Columns of sites that take over from one another, parted where their feet are apart.
@@ -108,7 +110,9 @@ class Placer:
             return [group]
         own = [sites[i] for i in group]
         feet = self._it.feet(own, point[None])[0]
-        free = [on_locus(self._it.boundary, self._it.sites, [s], point[None], APART)[0] for s in own]
+        free = [
+            on_locus(self._it.boundary, self._it.sites, [s], point[None], APART)[0] for s in own
+        ]
         radius = float(norm(feet - point).min())
         result: list[list[int]] = []
         for column, foot, loose in zip(group, feet, free, strict=True):
@@ -201,7 +205,7 @@ class Placer:
         for i, j, _ in links:
             linked[i, j] = linked[j, i] = True
         groups = [own for each in _joined(linked) for own in self._parted(sites, each, point)]
-        return links + [(one[0], two[0], False) for one, two in zip(groups, groups[1:])]
+        return links + [(one[0], two[0], False) for one, two in pairwise(groups)]
 
     def _constraints(
         self,

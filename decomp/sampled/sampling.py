@@ -31,8 +31,8 @@ from decomp.sampled.extracted import CLOSE, ONE, Extracted, contracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.jumps import without_jump
-from decomp.sampled.loci import pinned_ends
 from decomp.sampled.labels import Labeller
+from decomp.sampled.loci import pinned_ends
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.smoothing import unfolded
 from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
@@ -55,8 +55,8 @@ FINEST = 0.01
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 LOOSEST = 8.0
-"""Where refining cannot reach the tolerance, so many times of it, and of what is allowed for volumes,
-are accepted and stated."""
+"""Where refining cannot reach the tolerance, so many times of it, and of what is allowed for
+volumes, are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 4
@@ -200,7 +200,9 @@ def _smooth(
     near: Array | None = None
     for left in reversed(range(UNFOLDINGS)):
         shown = drawn(geometry, given, mesh, tools, extracted, floor / 2)
-        smooth, folded = unfolded(shown.complex, boundary, _pinned(shown, extracted), _at(shown, near))
+        smooth, folded = unfolded(
+            shown.complex, boundary, _pinned(shown, extracted), _at(shown, near)
+        )
         if not left or not len(folded):
             break
         bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
@@ -211,7 +213,11 @@ def _smooth(
             wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
             wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
             least = ONE * geometry.diagonal
-            fewer.append(contracted(moved, wanted, moved.short_edges(CLOSE * geometry.diagonal), least, tool.placer))
+            fewer.append(
+                contracted(
+                    moved, wanted, moved.short_edges(CLOSE * geometry.diagonal), least, tool.placer
+                )
+            )
         extracted = fewer
         near = smooth.points[np.unique(folded)]
     return replace(shown, complex=smooth)

@@ -13,8 +13,8 @@ from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.medial.incidence import Incidence
 from decomp.medial.curve_elements import LocusCurve
+from decomp.medial.incidence import Incidence
 from decomp.medial.reflexive import ReflexivePart, reflexive_parts
 from decomp.medial.result import (
     Junction,
@@ -29,8 +29,8 @@ from decomp.sampled.bisecting import Bisected
 from decomp.sampled.elements import PlacedCurve
 from decomp.sampled.extracted import Extracted
 from decomp.sampled.interior import Interior
-from decomp.sampled.loci import Run, runs, welded
 from decomp.sampled.lines import Chain, chains
+from decomp.sampled.loci import Run, runs, welded
 from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
@@ -325,7 +325,9 @@ class Described:
                         found.append(Reflexive(site, 1, number, None, length, run.closed))
                     number += 1
                 elif k == region:
-                    found.append(Reflexive(site, 0, None, int(self._number[vertices[0]]), 0.0, False))
+                    found.append(
+                        Reflexive(site, 0, None, int(self._number[vertices[0]]), 0.0, False)
+                    )
         return tuple(found)
 
     def _junctions(

@@ -149,9 +149,7 @@ class _EdgeBalls:
             if len(row):
                 column, part = int(np.searchsorted(names, self.faces[first])), (end - start) / count
                 low: Array = start + ball.astype(np.float64) * part
-                np.minimum.at(
-                    least[:, column], row, _gaps(curve, low, low + part, points[row])
-                )
+                np.minimum.at(least[:, column], row, _gaps(curve, low, low + part, points[row]))
             first += count
         order = np.argsort(least, axis=1, kind="stable")
         best, second = (np.take_along_axis(least, order[:, [k]], axis=1)[:, 0] for k in (0, 1))
