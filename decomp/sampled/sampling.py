@@ -3,11 +3,12 @@
 1. Tetrahedra fill the regions and conform to their exact boundaries; they are made fine where the
    labels of their nodes, the nearest sites, ask for it.
 2. The walls between labels are extracted, their vertices placed exactly, what has no width
-   contracted, and folds smoothed.
-3. Boundary and walls become one complex, which is refined to the chord tolerance.
+   contracted, and folds smoothed. Reflexive loci are known exactly and become lines between them.
+3. Boundary and walls become one complex, which is refined to the chord tolerance as far as that
+   goes.
 4. Cells are put together, and the certificate is measured: the one that traced skeletons have to
-   hold. Across every sheet the nearest point must jump. If something falls short, all is done again
-   with finer tetrahedra.
+   hold. The tolerance that is reached is stated. Across every sheet the nearest point must jump. If
+   something falls short, all is done again with finer tetrahedra.
 """
 
 from __future__ import annotations
@@ -61,7 +62,7 @@ SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 UNFOLDINGS = 4
 """So often walls are smoothed, and what is still folded then is contracted."""
-LIMIT, FILLING = 180.0, 300.0
+LIMIT, FILLING = 60.0, 300.0
 """Seconds after which no further try is begun, and that TetWild may compute in each."""
 
 Progress = Callable[[str, float], None]
