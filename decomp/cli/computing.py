@@ -37,8 +37,8 @@ def add_options(
         choices=("auto", "traced", "sampled"),
         default="traced",
         help="how the skeleton is found: traced curve by curve (default); sampled, as walls "
-        "between points with different nearest sites, placed exactly, which holds for simple parts "
-        "without axes; auto: traced, and sampled where that fails",
+        "between points with different nearest sites, placed exactly, which many parts with "
+        "junctions close together do not hold; auto: traced, and sampled where that fails",
     )
     parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 

@@ -19,7 +19,13 @@ from decomp.complex.flips import flip
 from decomp.complex.model import Complex
 from decomp.complex.refine_collapse import collapse
 from decomp.complex.refine_mesh import Mesh
-from decomp.complex.refine_split import split_inside, split_leaning, split_lines, split_twins
+from decomp.complex.refine_split import (
+    FOLDED,
+    split_inside,
+    split_leaning,
+    split_lines,
+    split_twins,
+)
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Ints, positive
 
@@ -31,9 +37,6 @@ LAST: Final = 4
 """So often a lenient mesh is measured thoroughly."""
 PATIENCE: Final = 12
 """So often triangles that only lean are split."""
-
-FOLDED: Final = -0.5
-"""A triangle whose normal has no more than this inner product with its surface's is turned over."""
 
 
 def refine(given: Complex, tolerance: float | Array, progress: Progress | None = None) -> Complex:

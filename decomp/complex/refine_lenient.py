@@ -6,6 +6,8 @@ followed at stays as it is, and whoever asked for it has to measure what has com
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from decomp.complex.refine_elements import Elements, Together
@@ -26,21 +28,21 @@ class LenientElements(Elements):
         return np.where(good, norm(placed - points), np.inf)
 
     def normal(self, numbers: Ints, points: Array) -> Array:
-        """Unit normals (k, 3) of the surfaces at points (k, 3) on them; zero where there is none."""
+        """Unit normals (k, 3) of the surfaces at points (k, 3) on them; zero where none."""
         found = self._each(numbers, points, self._normal_or_none, self._asked("normal"))
-        return np.where(np.isfinite(found).all(axis=1)[:, None], found, 0.0)
+        return np.where(_finite(found)[:, None], found, 0.0)
 
     def attempt(self, numbers: Ints, points: Array) -> tuple[Array, Bools]:
         """Points (k, 3) moved onto their elements as far as they have a place, and whether (k,)."""
         placed = self._each(numbers, points, self._place_or_none, self._asked("place"))
-        good = np.isfinite(placed).all(axis=1)
+        good = _finite(placed)
         return np.where(good[:, None], placed, points), good
 
     def _asked(self, what: str) -> list[Together]:
         return [getattr(family, what) for family in self._families]
 
     def _place_or_none(self, number: int, points: Array) -> Array:
-        element = (self._surfaces + self._curves)[number]  # type: ignore[operator]
+        element = (self._surfaces + self._curves)[number]
         attempt = getattr(element, "try_place", None)
         if attempt is not None:
             placed, good = attempt(points)
@@ -50,7 +52,7 @@ class LenientElements(Elements):
     def _normal_or_none(self, number: int, points: Array) -> Array:
         return self._some(number, points, self._normal_of)
 
-    def _some(self, number: int, points: Array, ask) -> Array:  # type: ignore[no-untyped-def]
+    def _some(self, number: int, points: Array, ask: Callable[[int, Array], Array]) -> Array:
         """Ask for all points, or for halves of them, down to those that fail."""
         try:
             return np.asarray(ask(number, points))
@@ -61,3 +63,7 @@ class LenientElements(Elements):
         return np.concatenate(
             [self._some(number, part, ask) for part in (points[:half], points[half:])]
         )
+
+
+def _finite(points: Array) -> Bools:
+    return np.asarray(np.isfinite(points).all(axis=1))

@@ -11,6 +11,9 @@ from decomp.errors import GeometryError
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, Ints, norm
 
+FOLDED = -0.5
+"""A triangle whose normal has no more than this inner product with its surface's is turned over."""
+
 
 def split_lines(mesh: Mesh) -> int:
     """Split segments that are too far from their curve, at most one in each triangle.
@@ -43,7 +46,8 @@ def split_inside(mesh: Mesh) -> int:
 
 def split_leaning(mesh: Mesh) -> int:
     """Split an edge of each triangle that leans; how many."""
-    return _split_some(mesh, np.flatnonzero(mesh.upright < UPRIGHT))
+    least = FOLDED if mesh.lenient else -np.inf
+    return _split_some(mesh, np.flatnonzero((mesh.upright < UPRIGHT) & (mesh.upright > least)))
 
 
 def split_twins(mesh: Mesh) -> int:

@@ -33,9 +33,12 @@ class PlacedCurve:
             return np.array(points)
         placed, good = self.try_place(points)
         if not good.all():
-            names = " and ".join(self.placer.names(self.sites))
-            bad = place(points[~good][0])
-            raise GeometryError(f"a point near {bad} cannot be moved onto the line of {names}")
+            names = self.placer.names(self.sites)
+            raise GeometryError(
+                f"a point near {{at}} cannot be moved onto the line of {' and '.join(names)}",
+                names,
+                at=points[~good][0],
+            )
         return placed
 
     def try_place(self, points: Array) -> tuple[Array, Bools]:

@@ -33,6 +33,8 @@ class Extracted:
         tet: (t,) the tetrahedron, counted within the region's, that each triangle is in.
         lost: (v,) vertices that could not be placed well.
         pinned: (v,) vertices that stay where they are, as loci end there.
+        passed, passing: edges (k, 2) of tetrahedra, as nodes, that lead through a third site's zone
+            and whose vertex has no place, and points (k, 3) on them in that zone.
     """
 
     points: Array
@@ -45,6 +47,8 @@ class Extracted:
     tet: Ints
     lost: Bools
     pinned: Bools
+    passed: Ints
+    passing: Array
 
     def short_edges(self, least: float) -> Ints:
         """The edges (k, 2) that are no longer than a length."""
@@ -95,6 +99,8 @@ def contracted(
         given.tet[rows],
         given.lost[used],
         given.pinned[used],
+        given.passed,
+        given.passing,
     )
 
 

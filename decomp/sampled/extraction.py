@@ -67,12 +67,17 @@ class Extractor:
         points[node >= 0] = mesh.points[node[node >= 0]]
         reach = self._reach(mesh.points, found.corners)
         self._start(mesh.points, labels, found, node, points, sites)
+        start = np.array(points)
+        third = np.array([len(own) > 2 for own in sites], dtype=np.bool_)
         free = np.flatnonzero(node < 0)
         radius, lost = np.zeros(count), np.zeros(count, dtype=np.bool_)
         self._settle(free, points, sites, radius, lost, reach)
         for vertex in np.flatnonzero(node >= 0).tolist():
             sites[vertex] = tuple(sorted(labels.at(int(node[vertex]))))
-        return self._joined(found, points, radius, node, sites, lost)
+        many = (found.corners >= 0).sum(axis=1)
+        through = np.flatnonzero(lost & (many == 2) & third)
+        passed = found.corners[through, :2], start[through]
+        return self._joined(found, points, radius, node, sites, lost, *passed)
 
     def _one(
         self,
@@ -212,6 +217,8 @@ class Extractor:
         node: Ints,
         sites: list[tuple[int, ...]],
         lost: Bools,
+        passed: Ints,
+        passing: Array,
     ) -> Extracted:
         """Make vertices one that are one node, and contract what has no width."""
         first: dict[int, int] = {}
@@ -229,6 +236,9 @@ class Extractor:
         narrow |= (linked[:, 0] >= 0) & (linked != between).any(axis=1)
         raised = (found.corners >= 0).sum(axis=1) < np.array([len(own) for own in sites])
         short = self._one(points, sites, triangles, raised & (node < 0) & ~lost, lost)
+        # what has no place of its own becomes one with what has, if that lies on all walls there
+        sides = np.unique(np.sort(triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)
+        short = np.concatenate([short, sides[lost[sides].any(axis=1)]])
         whole = Extracted(
             points,
             radius,
@@ -240,5 +250,7 @@ class Extractor:
             found.tet[kept],
             lost,
             np.zeros_like(lost),
+            passed,
+            passing,
         )
         return contracted(whole, narrow, short, ONE * self._size, self._placer)

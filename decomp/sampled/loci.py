@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
@@ -51,33 +52,75 @@ def pinned_ends(
     """Walls of which a vertex is at each end of each locus that a wall can pass."""
     size = incidence.boundary.diagonal
     points, radius, pinned = np.array(walls.points), np.array(walls.radius), np.array(walls.pinned)
+    sites = list(walls.sites)
     on_sheet = np.zeros(len(points), dtype=np.bool_)
     on_sheet[walls.triangles[walls.links[:, 0] < 0]] = True
     edges = np.sort(walls.triangles[:, SIDES].reshape(-1, 2), axis=1)
     length = norm(points[edges[:, 0]] - points[edges[:, 1]])
     longest = np.zeros(len(points))
     np.maximum.at(longest, edges.reshape(-1), np.repeat(length, 2))
+    become = np.arange(len(points))
     for part in parts:
         ends = part.ends if part.dimension else part.ends[:1]
         for end, other in zip(ends, part.others, strict=False):
-            away = norm(points - end)
-            at = np.flatnonzero(on_sheet & (away <= SAME * size))
-            if len(at):
-                pinned[at] = True
-                continue
             if part.dimension and other < 0:
                 continue
-            near = np.flatnonzero(on_sheet & (walls.node < 0) & ~pinned & (away <= REACH * longest))
-            tied = {
-                own: _tied(incidence, own, end) for own in {walls.sites[v] for v in near.tolist()}
-            }
-            good = [v for v in near.tolist() if tied[walls.sites[v]]]
-            if not good:
-                continue
-            best = min(good, key=lambda v: (-len(walls.sites[v]), float(away[v])))
-            points[best], pinned[best] = end, True
-            radius[best] = _distance(incidence, part.sites[0], end)
+            away = norm(points - end)
+            here = np.flatnonzero(on_sheet & (away <= SAME * size))
+            if not len(here):
+                near = np.flatnonzero(
+                    on_sheet & (walls.node < 0) & ~pinned & (away <= REACH * longest)
+                )
+                asked = {walls.sites[v] for v in near.tolist()}
+                tied = {own: _tied(incidence, own, end) for own in asked}
+                good = [v for v in near.tolist() if tied[walls.sites[v]]]
+                if not good:
+                    continue
+                here = np.array([min(good, key=lambda v: (-len(walls.sites[v]), float(away[v])))])
+                points[here[0]] = end
+                radius[here[0]] = _distance(incidence, part.sites[0], end)
+            pinned[here] = True
+            for vertex in _others(incidence, walls, int(here[0]), end, REACH * longest):
+                if not pinned[vertex] and walls.node[vertex] < 0:
+                    become[vertex], sites[here[0]] = here[0], _united(sites, here[0], vertex)
+    triangles = become[walls.triangles]
+    a, b, c = triangles.T
+    rows = np.flatnonzero((a != b) & (b != c) & (c != a))
+    walls = replace(
+        walls,
+        triangles=triangles[rows],
+        between=walls.between[rows],
+        links=walls.links[rows],
+        tet=walls.tet[rows],
+        sites=sites,
+    )
     return replace(walls, points=points, radius=radius, pinned=pinned)
+
+
+def _others(
+    incidence: Incidence, walls: Extracted, kept: int, end: Array, reach: Array
+) -> list[int]:
+    """Of each other sheet that comes to the end (3,) of a locus the nearest vertex.
+
+    Two cones can have one tip, of which no edge leads from one to the other.
+    """
+    own = walls.triangles[walls.links[:, 0] < 0]
+    between = walls.between[walls.links[:, 0] < 0]
+    away = norm(walls.points - end)
+    near = (away <= reach)[own].any(axis=1)
+    own, between = own[near], between[near]
+    at = (own == kept).any(axis=1)
+    held = {tuple(pair) for pair in between[at].tolist()}
+    found = []
+    for pair in sorted({tuple(pair) for pair in between.tolist()} - held):
+        if _tied(incidence, pair, end):
+            vertices = np.unique(own[(between == pair).all(axis=1)])
+            found.append(int(vertices[np.argmin(away[vertices])]))
+    return found
+
+
+def _united(sites: list[tuple[int, ...]], a: int, b: int) -> tuple[int, ...]:
+    return tuple(sorted({*sites[a], *sites[b]}))
 
 
 def _distance(incidence: Incidence, site: int, point: Array) -> float:
@@ -158,7 +201,7 @@ def _pieces(
         if stops[-1][0] < part.end - SAME * size:
             stops.append((part.end, -1))
     found = []
-    for (a, v), (b, w) in zip(stops[:-1], stops[1:], strict=True):
+    for (a, v), (b, w) in pairwise(stops):
         if v < 0 or w < 0 or (min(v, w), max(v, w)) not in edges:
             found.append(_run(part, a, b, v, w, spacing, False))
     return found

@@ -8,7 +8,7 @@ vanishes to second order, is replaced by the point's distance from that plane of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -205,7 +205,7 @@ class Placer:
         for i, j, _ in links:
             linked[i, j] = linked[j, i] = True
         groups = [own for each in _joined(linked) for own in self._parted(sites, each, point)]
-        return links + [(one[0], two[0], False) for one, two in zip(groups, groups[1:])]
+        return links + [(one[0], two[0], False) for one, two in pairwise(groups)]
 
     def _constraints(
         self,

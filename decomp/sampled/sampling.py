@@ -3,11 +3,12 @@
 1. Tetrahedra fill the regions and conform to their exact boundaries; they are made fine where the
    labels of their nodes, the nearest sites, ask for it.
 2. The walls between labels are extracted, their vertices placed exactly, what has no width
-   contracted, and folds smoothed.
-3. Boundary and walls become one complex, which is refined to the chord tolerance.
+   contracted, and folds smoothed. Reflexive loci are known exactly and become lines between them.
+3. Boundary and walls become one complex, which is refined to the chord tolerance as far as that
+   goes.
 4. Cells are put together, and the certificate is measured: the one that traced skeletons have to
-   hold. Across every sheet the nearest point must jump. If something falls short, all is done again
-   with finer tetrahedra.
+   hold. The tolerance that is reached is stated. Across every sheet the nearest point must jump. If
+   something falls short, all is done again with finer tetrahedra.
 """
 
 from __future__ import annotations
@@ -48,20 +49,20 @@ COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
 EPSILON = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-AGAIN = 10
+AGAIN = 7
 """So often tetrahedra are refined around walls that cannot be placed,"""
 FINEST = 0.01
 """to this part of the floor at the most."""
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 LOOSEST = 8.0
-"""Where refining cannot reach the tolerance, so many times of it, and of what is allowed for volumes,
-are accepted and stated."""
+"""Where refining cannot reach the tolerance, so many times of it, and of what is allowed for
+volumes, are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
-UNFOLDINGS = 8
+UNFOLDINGS = 4
 """So often walls are smoothed, and what is still folded then is contracted."""
-LIMIT, FILLING = 180.0, 300.0
+LIMIT, FILLING = 60.0, 300.0
 """Seconds after which no further try is begun, and that TetWild may compute in each."""
 
 Progress = Callable[[str, float], None]
@@ -283,11 +284,29 @@ def _refined_where_lost(mesh: Bisected, found: list[Extracted], floor: float) ->
     wanted = np.zeros(len(mesh.tets), dtype=np.bool_)
     for number, walls in enumerate(found):
         rows = np.flatnonzero(mesh.region == number)
-        wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
+        if not len(walls.passed):
+            wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
     corners = mesh.points[mesh.tets]
     wanted &= norm(corners - corners[:, [1, 2, 3, 0]]).max(axis=1) > FINEST * floor
     mesh.shorten(wanted)
-    return bool(wanted.any())
+    return bool(wanted.any()) | _cut_through(mesh, found)
+
+
+def _cut_through(mesh: Bisected, found: list[Extracted]) -> bool:
+    """Put nodes into zones that edges lead through; whether there were any."""
+    edges, which = mesh.edges()
+    number = {(a, b): k for k, (a, b) in enumerate(edges.tolist())}
+    chosen = np.zeros(len(edges), dtype=np.bool_)
+    at: Array = mesh.points[edges].mean(axis=1)
+    for walls in found:
+        for pair, point in zip(np.sort(walls.passed, axis=1).tolist(), walls.passing, strict=True):
+            k = number.get((pair[0], pair[1]))
+            if k is not None:
+                chosen[k], at[k] = True, point
+    chosen &= ~mesh.boundary_edges(edges)
+    if chosen.any():
+        mesh.halve(edges, which, chosen, at)
+    return bool(chosen.any())
 
 
 def _skeleton(

@@ -21,6 +21,8 @@ FaceLookup = Callable[[int, int, Array], Ints]
 UNKNOWN, SEVERAL = -2, -1
 NEIGHBOURS = (12, 96)
 STEPS = 8
+BLOCK = 256
+"""So many points are looked at together."""
 EQUAL = 1e-6
 """Distances that differ by less than this part of them are equal."""
 
@@ -131,35 +133,38 @@ class _EdgeBalls:
 
         Near a point where edges cross tangentially balls say nothing.
         """
-        return np.array([self._nearest(point) for point in points], dtype=np.int64)
+        found = np.empty(len(points), dtype=np.int64)
+        for start in range(0, len(points), BLOCK):
+            found[start : start + BLOCK] = self._nearest(points[start : start + BLOCK])
+        return found
 
-    def _nearest(self, point: Array) -> int:
-        gaps = np.linalg.norm(self.centres.data - point, axis=1)
-        near = gaps - self.radii <= (gaps + self.radii).min()
-        least: dict[int, float] = {}
+    def _nearest(self, points: Array) -> Ints:
+        gaps = norm(points[:, None] - self.centres.data[None])
+        near = gaps - self.radii <= (gaps + self.radii).min(axis=1)[:, None]
+        names = np.unique(self.faces)
+        least = np.full((len(points), len(names) + 1), np.inf)
         first = 0
         for curve, start, end, count in self.edges:
-            rows = np.flatnonzero(near[first : first + count])
-            if len(rows):
-                face, part = int(self.faces[first]), (end - start) / count
-                low: Array = start + rows.astype(np.float64) * part
-                gap = _least_gap(curve, low, low + part, point)
-                least[face] = min(least.get(face, np.inf), gap)
+            row, ball = np.nonzero(near[:, first : first + count])
+            if len(row):
+                column, part = int(np.searchsorted(names, self.faces[first])), (end - start) / count
+                low: Array = start + ball.astype(np.float64) * part
+                np.minimum.at(least[:, column], row, _gaps(curve, low, low + part, points[row]))
             first += count
-        order = sorted(least, key=lambda face: least[face])
-        if len(order) > 1 and least[order[1]] <= (1 + EQUAL) * least[order[0]]:
-            return SEVERAL
-        return order[0]
+        order = np.argsort(least, axis=1, kind="stable")
+        best, second = (np.take_along_axis(least, order[:, [k]], axis=1)[:, 0] for k in (0, 1))
+        one = ~(second <= (1 + EQUAL) * best)
+        return np.where(one, names[np.minimum(order[:, 0], len(names) - 1)], SEVERAL)
 
 
-def _least_gap(curve: Curve, low: Array, high: Array, point: Array) -> float:
-    """The least distance of a point (3,) from parts (k,) of a curve that are close to it."""
+def _gaps(curve: Curve, low: Array, high: Array, points: Array) -> Array:
+    """The distance of points (k, 3) from a part (k,) each of a curve that is close to them."""
     t = (low + high) / 2
     for _ in range(STEPS):
         tangent = curve.derivative(curve.wrapped(t))
-        step = dot(point - curve.point(curve.wrapped(t)), tangent) / dot(tangent, tangent)
+        step = dot(points - curve.point(curve.wrapped(t)), tangent) / dot(tangent, tangent)
         t = np.clip(t + step, low, high)
-    return float(norm(point - curve.point(curve.wrapped(t))).min())
+    return norm(points - curve.point(curve.wrapped(t)))
 
 
 def _groups(carriers: Ints, rows: Ints) -> list[tuple[int, Ints]]:

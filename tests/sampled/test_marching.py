@@ -46,6 +46,11 @@ def test_walls_enclose_their_label_and_face_away_from_the_lower_one() -> None:
     assert 0 < volume < 1
 
 
+def never(vertex: int, a: int, b: int, sheet: bool) -> bool:
+    """No vertex lies on walls other than those of its own sites."""
+    return False
+
+
 def test_a_strip_without_width_is_contracted_and_the_rest_stays() -> None:
     """A square whose diagonal is a strip of no width between two copies of the same points."""
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.4, 0.4, 0], [0.4, 0.4, 0]])
@@ -54,8 +59,11 @@ def test_a_strip_without_width_is_contracted_and_the_rest_stays() -> None:
     fixed = np.array([True] * 4 + [False] * 2)
     sites: list[tuple[int, ...]] = [(1, 2, 3)] * 6
     none = np.empty((0, 2), dtype=np.int64)
+    pairs = np.tile([1, 2], (6, 1))
     sheet = np.ones(6, dtype=np.bool_)
-    become = Contractor(points, sites, triangles, fixed, wanted, sheet, none, 1e-9).run()
+    become = Contractor(
+        points, sites, triangles, fixed, wanted, sheet, none, 1e-9, pairs, never
+    ).run()
     left = become[triangles]
     proper = left[[len(set(row)) == 3 for row in left.tolist()]]
     assert len(proper) == 4
@@ -75,7 +83,30 @@ def test_what_would_close_a_hole_is_not_contracted() -> None:
     fixed = np.zeros(6, dtype=np.bool_)
     wanted, sheet = np.zeros(6, dtype=np.bool_), np.ones(6, dtype=np.bool_)
     sites: list[tuple[int, ...]] = [(1, 2)] * 6
+    pairs = np.tile([1, 2], (6, 1))
     become = Contractor(
-        points.astype(float), sites, triangles, fixed, wanted, sheet, edges, 0
+        points.astype(float), sites, triangles, fixed, wanted, sheet, edges, 0, pairs, never
     ).run()
     assert (become == np.arange(6)).all()
+
+
+@pytest.mark.parametrize("on", [True, False])
+def test_a_vertex_becomes_one_with_another_only_if_that_lies_on_all_walls_left(on: bool) -> None:
+    """Vertex 3, in the middle of a triangle, is a junction of sites that its neighbours lack."""
+    points = np.array([[0.0, 0, 0], [3, 0, 0], [0, 3, 0], [1, 1, 0]])
+    triangles = np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
+    sites: list[tuple[int, ...]] = [(1, 2), (1, 2), (1, 2), (1, 4)]
+    between = np.tile([1, 4], (3, 1))
+    asked: list[tuple[int, int, int, bool]] = []
+
+    def holds(vertex: int, a: int, b: int, sheet: bool) -> bool:
+        asked.append((vertex, a, b, sheet))
+        return on
+
+    fixed, wanted = np.array([True] * 3 + [False]), np.zeros(3, dtype=np.bool_)
+    sheet, short = np.ones(3, dtype=np.bool_), np.array([[0, 3]])
+    become = Contractor(
+        points, sites, triangles, fixed, wanted, sheet, short, 1e-9, between, holds
+    ).run()
+    assert become.tolist() == [0, 1, 2, 0 if on else 3]
+    assert set(asked) == {(0, 1, 4, True)}

@@ -63,6 +63,93 @@ def test_a_sampled_skeleton_is_the_traced_one(name: str) -> None:
     assert one.certificate.flipped == one.certificate.open_cells == 0
 
 
+@pytest.mark.parametrize(
+    "name",
+    [
+        "cylinder",
+        "sphere",
+        pytest.param("capsule", marks=pytest.mark.slow),
+        pytest.param("slot", marks=pytest.mark.slow),
+        pytest.param("round boss", marks=pytest.mark.slow),
+    ],
+)
+def test_round_parts_have_their_axes_and_centres(name: str) -> None:
+    """Reflexive loci are lines and points between the walls; smooth edges part cells, no more."""
+    traced = skeleton_of(name)
+    found = decomp.skeleton(SOLIDS[name].make(), method="sampled")
+    one, two = found.regions[0], traced.regions[0]
+    ours, theirs = areas(found, one), areas(traced, two)
+    assert ours.keys() == theirs.keys()
+    for pair, area in theirs.items():
+        assert ours[pair] == pytest.approx(area, rel=1e-2), pair
+    for dimension in (0, 1):
+        lengths = [
+            [locus.length for locus in each.reflexive if locus.dimension == dimension]
+            for each in (one, two)
+        ]
+        assert len(lengths[0]) == len(lengths[1]), dimension
+        assert sum(lengths[0]) == pytest.approx(sum(lengths[1]), rel=1e-9)
+    volumes = {cell.name: cell.volume for cell in two.face_cells}
+    for cell in one.face_cells:
+        assert cell.volume == pytest.approx(volumes[cell.name], rel=1e-2)
+    assert one.certificate.euler == SOLIDS[name].euler
+    assert one.certificate.residual <= 1e-12
+    assert one.certificate.flipped == one.certificate.open_cells == 0
+
+
+def test_the_axis_of_a_rod_is_exact_and_ends_in_its_cones() -> None:
+    rod = decomp.Cylinder((0, 0, 0), (0, 0, 6), 1)
+    found = decomp.skeleton(rod, method="sampled")
+    (axis,) = found.regions[0].reflexive
+    points = found.complex.points[found.complex.lines[axis.line].vertices]
+    assert np.abs(points[:, :2]).max() <= 1e-12
+    assert sorted(points[[0, -1], 2]) == pytest.approx([1, 5], abs=1e-12)
+    ends = set(found.complex.lines[axis.line].vertices[[0, -1]].tolist())
+    on_sheets = {
+        vertex
+        for sheet in found.regions[0].sheets
+        for vertex in found.complex.patches[sheet.patch].triangles.reshape(-1).tolist()
+    }
+    assert ends <= on_sheets
+
+
+def test_two_cones_with_one_tip_meet_in_it() -> None:
+    """A rod as long as it is wide has no axis left, and its centre is the tip of both cones."""
+    found = decomp.skeleton(decomp.Cylinder((0, 0, 0), (0, 0, 2), 1), method="sampled")
+    region = found.regions[0]
+    assert (region.certificate.euler, len(region.sheets), region.reflexive) == (1, 2, ())
+    one, two = (
+        set(found.complex.patches[sheet.patch].triangles.reshape(-1).tolist())
+        for sheet in region.sheets
+    )
+    (tip,) = one & two
+    assert found.complex.points[tip] == pytest.approx([0, 0, 1], abs=1e-12)
+
+
+@pytest.mark.parametrize("times, held", [(2.0, True), (20.0, False)])
+def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
+    monkeypatch: pytest.MonkeyPatch, times: float, held: bool
+) -> None:
+    """Sheets that cannot be refined keep the chords that they have."""
+    actual = sampling.refined
+
+    def coarse(given: object, tolerance: float, **_: object) -> object:
+        return actual(given, times * tolerance, lenient=True)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(sampling, "refined", coarse)
+    monkeypatch.setattr(sampling, "FINENESSES", 1)
+    monkeypatch.setattr(sampling, "FLOORS", (12.0,))
+    rod = decomp.Geometry(decomp.Cylinder((0, 0, 0), (0, 0, 6), 1))
+    if held:
+        made = sampled_skeleton(rod, 5e-4, lambda what, done: None)
+        stated = made.tolerance / made.diagonal
+        assert 5e-4 < stated <= sampling.LOOSEST * 5e-4
+        assert made.regions[0].certificate.chord_error <= stated
+    else:
+        with pytest.raises(GeometryError, match=r"is .*, allowed"):
+            sampled_skeleton(rod, 5e-4, lambda what, done: None)
+
+
 def test_junctions_of_a_block_are_where_they_must_be() -> None:
     found = decomp.skeleton(decomp.Block((0, 0, 0), (4, 3, 2)), method="sampled")
     inner = [j for j in found.regions[0].junctions if j.radius > 0]
@@ -91,16 +178,17 @@ def test_where_tracing_fails_it_is_sampled_and_the_cause_is_told(
 def test_what_neither_way_gives_is_refused_with_both_causes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The axis of a rod is no wall between labels: its balls end nowhere, and that is seen."""
+    from decomp.certificate import certificate
 
     def fails(*_: object) -> Skeleton:
         raise GeometryError("a seam goes astray")
 
     monkeypatch.setattr(ways, "traced_skeleton", fails)
+    monkeypatch.setattr(certificate, "INTRUSION", -1.0)
     monkeypatch.setattr(sampling, "FLOORS", (12.0,))
-    rod = decomp.Cylinder((0, 0, 0), (0, 0, 6), 1)
+    block = decomp.Block((0, 0, 0), (4, 3, 2))
     with pytest.raises(GeometryError, match="goes astray; sampled instead: no sampled skeleton"):
-        decomp.skeleton(rod, method="auto")
+        decomp.skeleton(block, method="auto")
 
 
 def test_a_skeleton_that_fails_its_certificate_is_refused(
