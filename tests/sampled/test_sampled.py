@@ -101,6 +101,7 @@ def test_the_axis_of_a_rod_is_exact_and_ends_in_its_cones() -> None:
     rod = decomp.Cylinder((0, 0, 0), (0, 0, 6), 1)
     found = decomp.skeleton(rod, method="sampled")
     (axis,) = found.regions[0].reflexive
+    assert axis.line is not None
     points = found.complex.points[found.complex.lines[axis.line].vertices]
     assert np.abs(points[:, :2]).max() <= 1e-12
     assert sorted(points[[0, -1], 2]) == pytest.approx([1, 5], abs=1e-12)
@@ -131,7 +132,7 @@ def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
     monkeypatch: pytest.MonkeyPatch, times: float, held: bool
 ) -> None:
     """Sheets that cannot be refined keep the chords that they have."""
-    actual = sampling.refined
+    from decomp.complex.refine import refined as actual
 
     def coarse(given: object, tolerance: float, **_: object) -> object:
         return actual(given, times * tolerance, lenient=True)  # type: ignore[arg-type]
