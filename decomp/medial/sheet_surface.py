@@ -15,7 +15,7 @@ from decomp.medial.sheet_family import CLEAR, SheetFamily
 from decomp.tracing.equidistance import placed_between
 from decomp.tracing.fields import Field, site_fields
 from decomp.tracing.loci import on_locus
-from decomp.tracing.supports import CURVE, support_table
+from decomp.tracing.supports import CURVE, ELLIPSE, support_table
 from decomp.vectors import Array, Bools, Ints, norm, place
 
 
@@ -150,7 +150,7 @@ class SheetSurface:
     def _curved(self) -> bool:
         """Whether a site is a curve on which feet are searched from known ones."""
         table = support_table(self.incidence.boundary, self.incidence.sites)
-        return bool((table.kinds[list(self.sites)] == CURVE).any())
+        return bool(np.isin(table.kinds[list(self.sites)], (ELLIPSE, CURVE)).any())
 
     @cached_property
     def _tree(self) -> cKDTree:

@@ -18,7 +18,7 @@ from decomp.curves.line import Line
 from decomp.kernels.carriers import carrier_table
 from decomp.sites.site import Site
 from decomp.tracing.balance import fields_at
-from decomp.tracing.supports import CURVE, SupportTable, support_table
+from decomp.tracing.supports import SupportTable, curve_support, support_table
 from decomp.vectors import Array, Ints, dot
 
 
@@ -70,12 +70,13 @@ def edge_foot(boundary: RegionBoundary, edge: Edge, points: Array, feet: Array) 
         return np.asarray(curve.origin + along[:, None] * curve.direction)
     if isinstance(curve, Circle):
         return curve.point(curve.parameter(points))
+    kind, data = curve_support(curve)
     pair = carrier_table([boundary.carriers[k] for k in edge.carriers])
     table = SupportTable(
-        np.array([CURVE]),
+        np.array([kind]),
         np.ones(1),
         np.array([[0, 1]]),
-        np.zeros((1, 10)),
+        data[None],
         np.array([[-np.inf, np.inf]]),
         pair,
         1,

@@ -15,7 +15,9 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
+from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
+from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
 from decomp.kernels.carriers import (
     CONE,
@@ -33,15 +35,13 @@ from decomp.kernels.carriers import (
 from decomp.kernels.records import Record
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner
+from decomp.tracing.ellipse_feet import ellipse_foot, ellipse_parameter
+from decomp.tracing.foot_steps import FOOT_STEPS, LEAST_BEND, LONGEST_STEP
 from decomp.vectors import Array, Ints
 
-FACE, LINE, CIRCLE, CURVE, POINT, NOTHING = range(6)
-LEAST_BEND, LONGEST_STEP = 1e-5, 0.25
-"""Close to a centre of curvature Newton's steps along an edge, which grow without bound there, are
-divided by no less than this, and are no longer than this part of the distance."""
+FACE, LINE, CIRCLE, ELLIPSE, CURVE, POINT, NOTHING = range(7)
 TOUCHING = 1e-7
 """Sine of the angle between carriers below which rounding decides where they meet."""
-FOOT_STEPS = 60
 
 Field = tuple[float, float, float, float, float, float, float]
 
@@ -54,7 +54,8 @@ class SupportTable(Record):
         kinds: (n,), NOTHING for sites of other regions.
         signs: (n,), by which a face's signed distance is positive inside the region.
         flanks: carriers (n, 2) of an edge; a face's own carrier first.
-        data: (n, 10): line: origin, direction; circle: centre, x, y, radius; point: itself.
+        data: (n, 10): line: origin, direction; circle: centre, x, y, radius;
+            ellipse: centre and both half axes; point: itself.
         ends: (n, 2), where a straight edge begins and ends along its line; else infinite.
         carriers: of the model.
         first_edge: row of the region's first edge.
@@ -95,17 +96,10 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
     ends = np.tile([-np.inf, np.inf], (count, 1))
 
     def put_edge(row: int, edge: Edge) -> None:
-        curve = edge.curve
         flanks[row] = edge.carriers
-        if isinstance(curve, Line):
-            kinds[row] = LINE
-            data[row, :6] = *curve.origin, *curve.direction
+        kinds[row], data[row] = curve_support(edge.curve)
+        if isinstance(edge.curve, Line):
             ends[row] = edge.start, edge.end
-        elif isinstance(curve, Circle):
-            kinds[row] = CIRCLE
-            data[row] = *curve.centre, *curve.x, *curve.y, curve.radius
-        else:
-            kinds[row] = CURVE
 
     for row, site in enumerate(sites):
         if site.kind is SiteKind.FACE and site.index < len(boundary.faces):
@@ -129,6 +123,21 @@ def _laid_out(boundary: RegionBoundary, sites: Sequence[Site]) -> SupportTable:
         len(sites),
         len(sites) + len(edges),
     )
+
+
+def curve_support(curve: Curve) -> tuple[int, Array]:
+    """The kind of an edge's curve and its data (10,)."""
+    data = np.zeros(10)
+    if isinstance(curve, Line):
+        data[:6] = *curve.origin, *curve.direction
+        return LINE, data
+    if isinstance(curve, Circle):
+        data[:] = *curve.centre, *curve.x, *curve.y, curve.radius
+        return CIRCLE, data
+    if isinstance(curve, Ellipse):
+        data[:9] = *curve.centre, *(curve.a * curve.x), *(curve.b * curve.y)
+        return ELLIPSE, data
+    return CURVE, data
 
 
 @inner
@@ -159,6 +168,8 @@ def support(
         qx = data[k, 0] + u * data[k, 3] + v * data[k, 6]
         qy = data[k, 1] + u * data[k, 4] + v * data[k, 7]
         qz = data[k, 2] + u * data[k, 5] + v * data[k, 8]
+    elif kind == ELLIPSE:
+        qx, qy, qz = ellipse_foot(data[k], x, y, z, qx, qy, qz)
     elif kind == CURVE:
         a, b = table.flanks[k, 0], table.flanks[k, 1]
         qx, qy, qz = curve_foot(table.carriers, a, b, x, y, z, qx, qy, qz)
@@ -202,6 +213,15 @@ def tangent_at(table: SupportTable, k: int, qx: float, qy: float, qz: float) -> 
             u * data[k, 7] - v * data[k, 4],
             u * data[k, 8] - v * data[k, 5],
         )
+    if kind == ELLIPSE:
+        c, s = ellipse_parameter(data[k], qx, qy, qz)
+        tx, ty, tz = (
+            c * data[k, 6] - s * data[k, 3],
+            c * data[k, 7] - s * data[k, 4],
+            c * data[k, 8] - s * data[k, 5],
+        )
+        length = sqrt(tx * tx + ty * ty + tz * tz)
+        return tx / length, ty / length, tz / length
     nx, ny, nz = normal(table.carriers, table.flanks[k, 0], qx, qy, qz)
     mx, my, mz = normal(table.carriers, table.flanks[k, 1], qx, qy, qz)
     tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
