@@ -150,7 +150,7 @@ def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[Cu
     found: list[tuple[float, int, Array]] = []
     for k, near in enumerate(tree.query_ball_point(middle, 0.6 * length + ON * size)):
         for number in near:
-            if piece.ends and number in piece.ends:
+            if (piece.ends and number in piece.ends) or not length[k]:
                 continue
             along = float((nodes[number] - piece.points[k]) @ chords[k]) / float(length[k]) ** 2
             if not -1e-6 <= along < 1 + 1e-6:

@@ -78,7 +78,7 @@ class SheetDomains:
         uv = domain.to_plane(feet[:, column], points)
         domain = around_locus(domain, uv, self._locus_gap(own, points) <= self._tolerances.on_locus)
         uv = domain.to_plane(feet[:, column], points)
-        if not self._merged(uv) and not self._hidden(pair[column], points, feet[:, column]):
+        if not self.merged(uv) and not self._hidden(pair[column], points, feet[:, column]):
             return Drawing(uv, domain, column)
         if flat is not None:
             return Drawing(flat, None, 0)
@@ -100,7 +100,7 @@ class SheetDomains:
         column = self._better(pair, points)
         for k in (column, 1 - column):
             uv = self._along_and_away(pair[k], points, feet[:, k])
-            if uv is not None and not self._merged(uv):
+            if uv is not None and not self.merged(uv):
                 return Drawing(uv, None, k)
         return None
 
@@ -111,9 +111,10 @@ class SheetDomains:
             return None
         edge = self._boundary.edges[it.index]
         uv = about_centre(self._boundary, edge, points, feet, self._tolerances.on_locus)
-        return None if uv is None or self._merged(uv) else uv
+        return None if uv is None or self.merged(uv) else uv
 
-    def _merged(self, uv: Array) -> bool:
+    def merged(self, uv: Array) -> bool:
+        """Whether points that border sheets have run together in a drawing (k, 2)."""
         return bool(cKDTree(uv).query_pairs(self._tolerances.same))
 
     def _hidden(self, site: int, points: Array, feet: Array) -> bool:

@@ -25,8 +25,9 @@ from decomp.medial.drawn_sheets import (
     UnevenError,
     facing,
 )
+from decomp.medial.flat_parts import flat_parts
 from decomp.medial.incidence import Incidence
-from decomp.medial.sheet_domains import Drawing, SheetDomains
+from decomp.medial.sheet_domains import FLAT, Drawing, SheetDomains
 from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.sheet_tests import SheetTests
 from decomp.sites import SiteIndex
@@ -93,6 +94,10 @@ class SheetMaker:
         feet = self._incidence.feet(pair, points)
         surface = SheetSurface(self._incidence, pair, points, feet)
         drawing = self._domains.drawn(pair, points, feet, surface)
+        if self._domains.merged(drawing.uv):
+            parts = flat_parts(self._points, lines, FLAT * self._incidence.boundary.diagonal)
+            if parts is not None and not len(isolated):
+                return [sheet for part in parts for sheet in self.sheets(pair, part, ())]
         local = np.searchsorted(used, segments)
         after: tuple[type[GeometryError], ...]
         after = (UnevenError, MissingCurveError, MergedError, NoSheetError)

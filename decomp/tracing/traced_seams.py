@@ -9,7 +9,7 @@ import numpy as np
 from decomp.tolerance import AT_END
 from decomp.tracing.seam_graph_model import Node, Seam
 from decomp.tracing.seam_states import Traced
-from decomp.vectors import Array, Bools, norm
+from decomp.vectors import Array, Bools, dot, norm
 
 
 def seam_between(
@@ -47,9 +47,13 @@ def _before(points: Array, node: Node, size: float) -> Bools:
     """Which points (k, 3) of a seam come before the node at its end.
 
     Where contacts run together a seam is followed past its end a little, or rounding moves it to
-    and fro beside the node.
+    and fro beside the node. A step can lead past the node, too.
     """
     near = norm(points - node.point) <= AT_END * size
+    way, before = np.diff(points, axis=0), node.point - points[:-1]
+    part = dot(before, way) / np.maximum(dot(way, way), 1e-300)
+    off = norm(before - part[:, None] * way)
+    near[1:] |= (part > 0) & (part <= 1) & (off <= AT_END * size)
     return np.asarray(np.cumsum(near) == 0)
 
 
