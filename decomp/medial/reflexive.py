@@ -253,8 +253,13 @@ class _Search:
         near = self._index.nearest(self._locus.point(np.array([beyond])))
         if near.region[0] != self._incidence.region:
             return inside, -1
-        other = int(near.site[0])
-        return self._polished(inside, sense, other, near.foot), other
+        other, foot = int(near.site[0]), near.foot
+        # farther on the foot is told better: the distances grow with the square of the way
+        clear = inside + sense * BESIDE * self._size
+        far = self._index.nearest(self._locus.point(np.array([clear])))
+        if int(far.site[0]) == other:
+            foot = far.foot
+        return self._polished(inside, sense, other, foot), other
 
     def _polished(self, u: float, sense: float, other: int, foot: Array) -> float:
         """Solve d_other(u) = d_carrier(u) from close by, zeros being on one side of u.

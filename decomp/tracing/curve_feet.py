@@ -1,12 +1,8 @@
-"""Feet on the curves in which two carriers meet, compiled.
-
-Newton's method from a known foot. A step that is long for the curve can lead past a bend onto
-another part of it, so it is taken only if it leads nearer once it is back on the curve.
-"""
+"""Feet on the curves in which two carriers meet, compiled: Newton's method from a known foot."""
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import sqrt
 
 from decomp.kernels.carriers import (
     CONE,
@@ -24,13 +20,9 @@ from decomp.tracing.compiled import inner
 LEAST_BEND, LONGEST_STEP = 1e-5, 0.25
 """Close to a centre of curvature Newton's steps along an edge, which grow without bound there, are
 divided by no less than this, and are no longer than this part of the distance."""
-LONG = 1e-3
-"""Steps longer than this part of the distance are looked at."""
-SHORTER, LONGER, CORRECTIONS = 0.25, 2.0, 4
-"""How the longest step changes after one that led farther away, and nearer; Newton's steps back."""
 TOUCHING = 1e-7
 """Sine of the angle between carriers below which rounding decides where they meet."""
-FOOT_STEPS = 100
+FOOT_STEPS = 60
 
 
 @inner
@@ -60,23 +52,6 @@ def normal_curvature(
 
 
 @inner
-def onto_both(table: CarrierTable, a: int, b: int, qx: float, qy: float, qz: float) -> Triple:
-    """A point moved onto two carriers by a few of Newton's shortest steps."""
-    for _ in range(CORRECTIONS):
-        nx, ny, nz = normal(table, a, qx, qy, qz)
-        mx, my, mz = normal(table, b, qx, qy, qz)
-        cosine = nx * mx + ny * my + nz * mz
-        square = 1.0 - cosine * cosine
-        if square <= TOUCHING * TOUCHING:
-            break
-        da = -signed_distance(table, a, qx, qy, qz)
-        db = -signed_distance(table, b, qx, qy, qz)
-        ca, cb = (da - cosine * db) / square, (db - cosine * da) / square
-        qx, qy, qz = qx + ca * nx + cb * mx, qy + ca * ny + cb * my, qz + ca * nz + cb * mz
-    return qx, qy, qz
-
-
-@inner
 def curve_foot(
     table: CarrierTable,
     a: int,
@@ -93,7 +68,7 @@ def curve_foot(
     Newton's method on a(q) = 0, b(q) = 0, (p - q).t(q) = 0; the derivative of the last by q has
     the curve's bending k in it: -(1 - (p - q).k) t.
     """
-    before, reach = 1e300, inf
+    before = 1e300
     for _ in range(FOOT_STEPS):
         nx, ny, nz = normal(table, a, qx, qy, qz)
         mx, my, mz = normal(table, b, qx, qy, qz)
@@ -116,23 +91,13 @@ def curve_foot(
             ka, kb = (ha - cosine * hb) / square, (hb - cosine * ha) / square
             bent = ka * (vx * nx + vy * ny + vz * nz) + kb * (vx * mx + vy * my + vz * mz)
             along = (vx * tx + vy * ty + vz * tz) / max(1.0 - bent, LEAST_BEND)
-            away = sqrt(vx * vx + vy * vy + vz * vz)
-            limit = min(LONGEST_STEP * away, reach)
+            limit = LONGEST_STEP * sqrt(vx * vx + vy * vy + vz * vz)
             along = min(max(along, -limit), limit)
             # the step across the curve solves n.s = da, m.s = db in the plane of n and m
             ca, cb = (da - cosine * db) / square, (db - cosine * da) / square
-            sx, sy, sz = ca * nx + cb * mx, ca * ny + cb * my, ca * nz + cb * mz
-            if abs(along) > LONG * away:
-                hx, hy, hz = qx + sx + along * tx, qy + sy + along * ty, qz + sz + along * tz
-                hx, hy, hz = onto_both(table, a, b, hx, hy, hz)
-                ux, uy, uz = x - hx, y - hy, z - hz
-                vx, vy, vz = vx - sx, vy - sy, vz - sz
-                if ux * ux + uy * uy + uz * uz < vx * vx + vy * vy + vz * vz:
-                    qx, qy, qz, reach = hx, hy, hz, LONGER * abs(along)
-                else:
-                    qx, qy, qz, reach = qx + sx, qy + sy, qz + sz, SHORTER * abs(along)
-                continue
-            sx, sy, sz = sx + along * tx, sy + along * ty, sz + along * tz
+            sx = ca * nx + cb * mx + along * tx
+            sy = ca * ny + cb * my + along * ty
+            sz = ca * nz + cb * mz + along * tz
         qx, qy, qz = qx + sx, qy + sy, qz + sz
         length = sqrt(sx * sx + sy * sy + sz * sz)
         if length <= 1e-16 * (1.0 + abs(qx) + abs(qy) + abs(qz)):

@@ -82,6 +82,11 @@ def slotted_plate_in_air() -> dict[str, Solid]:
     return {"plate": plate, "air": air}
 
 
+def nearly_a_cube() -> Solid:
+    """Two junctions lie a few millionths of their radius apart."""
+    return Block((0, 0, 0), (10, 10, 10.00002))
+
+
 def sunk_plate() -> Solid:
     """The hole is as deep as its radius, and its bottom as thick: contacts tie in a point."""
     return Block((0, 0, 0), (60, 48, 8)) - Cylinder((40, 12, 4), (40, 12, 9), 4)
@@ -287,6 +292,7 @@ COINCIDENCES: dict[str, Coincidence] = {
     "slotted plate in air": Coincidence(
         slotted_plate_in_air, (440 - 2 * pi, 600.0**3 - 440 + 2 * pi), (1, 2)
     ),
+    "nearly a cube": Coincidence(nearly_a_cube, (1000.002,), (1,)),
     "sunk plate": Coincidence(sunk_plate, (60 * 48 * 8 - 64 * pi,), (1,)),
     "chisel": Coincidence(chisel, (_chisel_volume(),), (1,)),
     "rod with eye": Coincidence(rod_with_eye, (600 * pi + 4 * (552 - 100 * asin(0.6)),), (0,)),
