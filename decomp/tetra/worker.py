@@ -61,7 +61,10 @@ def limit_work(seconds: float) -> None:
         import resource
 
         whole = math.ceil(seconds)
-        resource.setrlimit(resource.RLIMIT_CPU, (whole, whole + 5))
+        # where a batch system, or `ulimit -t`, allows less, it is not to be raised
+        allowed = resource.getrlimit(resource.RLIMIT_CPU)[1]
+        most = whole + 5 if allowed == resource.RLIM_INFINITY else min(whole + 5, allowed)
+        resource.setrlimit(resource.RLIMIT_CPU, (min(whole, most), most))
 
 
 def main(source: str, target: str, seconds: str) -> int:

@@ -244,3 +244,16 @@ child.tetrahedralized(CORNERS, CUBE, Settings(0.01, 0.0016), limit=TimeLimit(100
     parent.communicate(timeout=20)
     assert gone(inner)
     assert parent.returncode != 0
+
+
+def test_a_batch_systems_limit_of_computing_is_kept(tmp_path: Path) -> None:
+    """The child's own limit would be higher, which the system refuses."""
+    program = f"""
+import resource
+resource.setrlimit(resource.RLIMIT_CPU, (200, 200))
+import decomp
+mesh = decomp.mesh(decomp.Block((0, 0, 0), (2, 1, 1)), size=0.5, cells="none")
+open({str(tmp_path / "made")!r}, "w").write(str(len(mesh.tets)))
+"""
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=300)
+    assert int((tmp_path / "made").read_text()) > 10
