@@ -18,6 +18,8 @@ from decomp.vectors import Array, Bools, norm
 TOGETHER = 0.1
 """Curves are together as long as they are nearer to each other than this part of the distance from
 their node."""
+AGAIN = 3
+"""So often samples are placed: from a chord's point the curve is found at another distance."""
 SAME = 1e-3
 """Samples whose distances from the node differ by less than this part of them are at the same."""
 
@@ -59,21 +61,24 @@ def _match(
         new = inner[gaps > SAME * inner]
         if not len(new):
             continue
-        dense = _outward(pieces[number].points, end)
+        dense = _outward(max(pieces[number].points, found[number], key=len), end)
         along = norm(dense - dense[0])
         stop = int(np.argmin(_rising(along))) if not _rising(along).all() else len(along)
         new = new[new < along[stop - 1]]
         if not len(new):
             continue
-        guess = _at(dense[:stop], along[:stop], new)
-        placed = pieces[number].element.place(guess)
-        # beside a locus a curve can place points far from the guess
-        new = norm(placed - own[0])
-        clear = np.abs(radii[None] - new[:, None]).min(axis=1) > SAME * new
-        clear &= new < radii[_rising(radii)][-1]
-        placed, new = placed[clear], new[clear]
+        asked = new
+        for _ in range(AGAIN):
+            placed = pieces[number].element.place(_at(dense[:stop], along[:stop], asked))
+            reached = norm(placed - dense[0])
+            asked = asked + new - reached
+        # beside a locus a curve can place points far from where they are wanted
+        clear = np.abs(radii[None] - reached[:, None]).min(axis=1) > SAME * reached
+        clear &= reached < radii[_rising(radii)][-1]
+        placed, reached = placed[clear], reached[clear]
         every = np.concatenate([own, placed])
-        order = np.argsort(np.concatenate([_order(radii), _position(radii, new)]), kind="stable")
+        place = np.concatenate([_order(radii), _position(radii, reached)])
+        order = np.argsort(place, kind="stable")
         whole = every[order]
         found[number] = whole if end == 0 else whole[::-1]
 

@@ -149,6 +149,13 @@ def tray_with_posts() -> Solid:
     return tray
 
 
+def equal_tee() -> Solid:
+    """Outsides and bores both are tangent where their edges cross, in two points each."""
+    outside = Cylinder((-9, 0, 0), (9, 0, 0), 3) | Cylinder((0, 0, 0), (0, 0, 7), 3)
+    bores = Cylinder((-10, 0, 0), (10, 0, 0), 2.5) | Cylinder((0, 0, 0), (0, 0, 8), 2.5)
+    return outside - bores
+
+
 def drilled_ring() -> Solid:
     """The sheets between ring and bore have no border along which the ring's footprint closes."""
     return Torus((0, 0, 0), (0, 0, 1), 6, 2.5) - InfiniteCylinder((0, 0, 0), (1, 0, 0), 0.6)
@@ -310,6 +317,8 @@ COINCIDENCES: dict[str, Coincidence] = {
     "ball through two faces": Coincidence(
         ball_through_two_faces, (2.4 * 3.5 * 3.8 + _cap(0.8, 0.1) + _cap(0.8, 0.35),), (1,)
     ),
+    # half of what two cylinders have in common is there once
+    "equal tee": Coincidence(equal_tee, (25 * pi * (9 - 6.25) - 8 / 3 * (27 - 2.5**3),), (-1,)),
     "drilled ring": Coincidence(drilled_ring, (_drilled_volume(),), (-2,)),
     # two bores of radius r have 16 r^3 / 3 in common
     "bored block": Coincidence(bored_block, (48000 - 80 * 36 * pi + 16 * 6**3 / 3,), (-2,)),

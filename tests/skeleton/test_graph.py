@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi, sqrt
 
 import numpy as np
@@ -15,9 +16,10 @@ from decomp.tracing.contacts import contacts
 from decomp.tracing.graph import Seam, SeamGraph, seam_graph
 from decomp.tracing.local import seam_rays
 from decomp.tracing.seam_points import SeamPoints
-from decomp.tracing.seam_states import SeamEnd, State
+from decomp.tracing.seam_states import Run, SeamEnd, State, Traced
 from decomp.tracing.seams import SeamTracer
 from decomp.tracing.seeds import Seeds
+from decomp.tracing.traced_seams import seam_between
 from decomp.vectors import Array, norm
 from tests.solids import SOLIDS
 
@@ -189,6 +191,19 @@ def test_seeds_on_trims_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
         "decomp.tracing.graph.seam_seeds", lambda *_: Seeds(point[None], feet[None])
     )
     assert len(seam_graph(geometry.index, geometry.regions[0], 0).seams) == len(graph.seams)
+
+
+def test_seams_end_at_their_nodes_also_between_two_points() -> None:
+    """A step that leads past the node is no part of the seam."""
+    _, graph = graph_of(SOLIDS["block"].make())
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 1e-9, 0], [5, 0, 0]])
+    start, end = (replace(graph.nodes[0], point=np.array([x, 0.0, 0.0])) for x in (0.4, 4.0))
+    feet = np.zeros((5, 3, 3))
+    run = Run((0, 1, 2), points, np.ones(5), feet)
+    last = State(points[-1], 1.0, (0, 1, 2), feet[-1], np.array([1.0, 0, 0]), 0.0)
+    traced = Traced((run,), last, SeamEnd.SPLIT, -1, np.zeros(3))
+    seam = seam_between(traced, (0, 1), start, end, 1.0)
+    assert seam.points[:, 0].tolist() == [0.4, 1.0, 2.0, 3.0, 4.0]
 
 
 def test_similar_solids_have_similar_graphs() -> None:
