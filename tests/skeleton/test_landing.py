@@ -10,7 +10,7 @@ import pytest
 import decomp
 from decomp.tracing.arcs import Arcs
 from decomp.tracing.landing import landing
-from decomp.tracing.seam_points import SLACK, SeamPoints
+from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
 from decomp.vectors import Array
 from tests.skeleton.computed import region_of
@@ -65,7 +65,7 @@ def test_what_leaves_the_end_of_an_axis() -> None:
     geometry = decomp.Geometry(SHAPES["ridge"]())
     points = SeamPoints(geometry.index, geometry.regions[0], 0)
     place = np.array([2.2, 2.2, 2.4])
-    touching = points.contacts.at(place, SLACK * points.size)
+    touching = points.contacts.at(place, points.tolerances.same)
     arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
     _, (ray,) = arcs.leaving(touching, place)
     names = {geometry.index.sites[touching.sites[k][0]].name for k in ray.contacts}
@@ -97,7 +97,7 @@ def test_what_leaves_the_centre_of_a_ball(
     """On a corner one seam, between the three edges; on an edge none, only their sheet."""
     geometry = decomp.Geometry(SHAPES[name]())
     points = SeamPoints(geometry.index, geometry.regions[0], 0)
-    touching = points.contacts.at(np.array(centre), SLACK * points.size)
+    touching = points.contacts.at(np.array(centre), points.tolerances.same)
     arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
     found, rays = arcs.leaving(touching, np.array(centre))
     names = {geometry.index.sites[found.sites[k][0]].name for ray in rays for k in ray.contacts}
