@@ -69,8 +69,6 @@ def test_a_sampled_skeleton_is_the_traced_one(name: str) -> None:
         "cylinder",
         "sphere",
         pytest.param("capsule", marks=pytest.mark.slow),
-        pytest.param("slot", marks=pytest.mark.slow),
-        pytest.param("round boss", marks=pytest.mark.slow),
     ],
 )
 def test_round_parts_have_their_axes_and_centres(name: str) -> None:
