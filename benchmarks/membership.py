@@ -5,6 +5,7 @@ Volumes are compared with it. A point on a face goes to either side.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from functools import reduce
 from math import radians, tan
 
@@ -18,6 +19,7 @@ from decomp.csg.primitives import (
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    Primitive,
     Sphere,
     Torus,
 )
@@ -45,31 +47,48 @@ def volume(solid: Solid, bounds: Array) -> tuple[float, float]:
     return share * box, box * float(np.sqrt(max(share * (1 - share), 1 / POINTS) / POINTS))
 
 
-def held(solid: Solid, points: Array) -> Bools:
-    """Which of points (n, 3) a solid holds."""
+def held(
+    solid: Solid, points: Array, primitive: Callable[[Primitive, Array], Bools] | None = None
+) -> Bools:
+    """Which of points (n, 3) a solid holds; recursive, so for shallow trees only.
+
+    Args:
+        solid: the solid.
+        points: the points.
+        primitive: what answers for primitives, by default their own numbers.
+    """
+
+    def any_of(answers: Iterator[Bools]) -> Bools:
+        return reduce(np.logical_or, answers, np.zeros(len(points), dtype=np.bool_))
+
     match solid:
         case Union(parts=parts):
-            return reduce(np.logical_or, (held(part, points) for part in parts))
+            return any_of(held(part, points, primitive) for part in parts)
         case Intersection(parts=parts):
-            return reduce(np.logical_and, (held(part, points) for part in parts))
+            inside = (held(part, points, primitive) for part in parts)
+            return reduce(np.logical_and, inside, np.ones(len(points), dtype=np.bool_))
         case Difference(base=base, tool=tool):
-            return held(base, points) & ~held(tool, points)
+            return held(base, points, primitive) & ~held(tool, points, primitive)
         case Complement(part=part):
-            return ~held(part, points)
+            return ~held(part, points, primitive)
         case Transformed(part=part, by=by):
-            return held(part, _before(by, points))
+            return held(part, preimages(by, points), primitive)
         case Copies(part=part, by=several):
-            return reduce(np.logical_or, (held(part, _before(by, points)) for by in several))
+            return any_of(held(part, preimages(by, points), primitive) for by in several)
         case Labelled(part=part):
-            return held(part, points)
-    return _primitive(solid, points)
+            return held(part, points, primitive)
+        case Primitive():
+            return (primitive or by_numbers)(solid, points)
+    raise AssertionError(solid)
 
 
-def _before(by: Similarity, points: Array) -> Array:
-    return np.asarray((points - by.offset) @ np.linalg.inv(by.scale * by.rotation).T)
+def preimages(by: Similarity, points: Array) -> Array:
+    """The points (n, 3) that a similarity takes to given ones."""
+    return (points - by.offset) @ by.rotation / by.scale
 
 
-def _primitive(solid: Solid, points: Array) -> Bools:
+def by_numbers(solid: Primitive, points: Array) -> Bools:
+    """Which of points (n, 3) a primitive holds, by its own numbers."""
     match solid:
         case Block(corner=corner, size=size):
             return np.asarray(((points > corner) & (points < corner + size)).all(axis=1))

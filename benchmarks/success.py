@@ -24,9 +24,9 @@ from typing import Any
 import numpy as np
 
 import decomp
+from benchmarks.designs import design
 from benchmarks.membership import volume
 from benchmarks.parts import FAMILIES, drawn
-from benchmarks.random_designs import design
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.formats import FORMATS
@@ -114,8 +114,16 @@ def outcome(make: Make, meshes: str | None, method: str, limit: int) -> dict[str
     return {**found, "seconds": seconds, "clock": time.perf_counter() - start}
 
 
-def report(found: list[dict[str, Any]]) -> None:
-    """Print the table."""
+def counted(parts: Iterator[tuple[str, Make]], meshes: str | None, method: str, limit: int) -> None:
+    """Compute all parts, tell of those that fail, and print the table."""
+    found: list[dict[str, Any]] = []
+    for name, make in parts:
+        each = outcome(make, meshes, method, limit)
+        found.append(each)
+        if each["what"] not in GOOD:
+            print(f"{name}: {each['what']} {each['why'][:200]}", flush=True)
+    if not found:
+        sys.exit("there are no models")
     counts = Counter(each["what"] for each in found)
     for what, count in counts.most_common():
         print(f"{what:<18} {count:>5} of {len(found)}  {100 * count / len(found):.1f} %")
@@ -150,15 +158,7 @@ def main() -> None:
     else:
         own = options.families, options.count, options.first, options.digits, options.turned
         parts = iter(drawn(*own))
-    found: list[dict[str, Any]] = []
-    for name, make in parts:
-        each = outcome(make, options.mesh, options.method, options.limit)
-        found.append(each)
-        if each["what"] not in GOOD:
-            print(f"{name}: {each['what']} {each['why'][:200]}", flush=True)
-    if not found:
-        sys.exit("there are no models")
-    report(found)
+    counted(parts, options.mesh, options.method, options.limit)
 
 
 if __name__ == "__main__":

@@ -93,11 +93,10 @@ def edge_samples(
     boundary = evidence.boundary
     edges = [edge for edge in boundary.edges if edge.convexity is Convexity.REENTRANT]
     whole = sum(edge.length for edge in edges)
+    step, queries = _step(evidence), region_queries(evidence.index, evidence.region)
     for edge in edges:
         share = max(LEAST, round(ON_EDGES * count * edge.length / whole))
         points, inward = EdgeFan(boundary, edge).place(rng.random((share, 2)))
-        step = _step(evidence)
-        queries = region_queries(evidence.index, evidence.region)
         found = queries.nearest(points + step * inward)
         # beside the ends of an edge another one may be nearer
         own = (found.site >= 0) & (norm(found.foot - points) <= BESIDE * step)

@@ -239,13 +239,17 @@ class RegionAssembler:
         incidence, slack = curves.incidence, AT_END * self._size
         ends = {end for piece in curves.pieces for end in piece.ends or ()}
         edges = {k for k, site in enumerate(incidence.sites) if site.kind is SiteKind.EDGE}
-        pairs = {p for piece in curves.pieces for p in piece.pairs if p[0] != p[1]}
+        every = {pair for piece in curves.pieces for pair in piece.pairs}
+        pairs = sorted(pair for pair in every if pair[0] != pair[1] and edges.issuperset(pair))
+        queries = region_queries(self._index, incidence.region)
         for number, part in enumerate(curves.points, curves.vertices):
+            if number in ends or not pairs:
+                continue
             at = part.ends[0][None]
-            radius = float(region_queries(self._index, incidence.region).depth(at)[1][0])
-            for pair in sorted(pairs) if number not in ends else ():
+            radius = float(queries.depth(at)[1][0])
+            for pair in pairs:
                 away = norm(at - incidence.feet(pair, at)[0])
-                if edges.issuperset(pair) and float(np.abs(away - radius).max()) <= slack:
+                if float(np.abs(away - radius).max()) <= slack:
                     found.setdefault(pair, []).append(nodes[number])
         return found
 

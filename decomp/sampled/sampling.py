@@ -131,8 +131,7 @@ def _attempt(
     lost = sum(int(found.lost.sum()) for found in extracted)
     if lost:
         at = next(found.points[found.lost][0] for found in extracted if found.lost.any())
-        where = ", ".join(f"{x:.6g}" for x in at)
-        raise GeometryError(f"{lost} points of walls have no place, one near ({where})")
+        raise GeometryError(f"{lost} points of walls have no place, one near {{at}}", at=at)
     tell("triangulating sheets", share)
     shown = _smooth(geometry, given, mesh, tools, extracted, floor)
     result = _Try(None, ["nothing was tried"])

@@ -69,17 +69,24 @@ def test_a_sampled_skeleton_is_the_traced_one(name: str) -> None:
         "cylinder",
         "sphere",
         pytest.param("capsule", marks=pytest.mark.slow),
+        pytest.param("slot", marks=pytest.mark.slow),
+        pytest.param("round boss", marks=pytest.mark.slow),
     ],
 )
 def test_round_parts_have_their_axes_and_centres(name: str) -> None:
-    """Reflexive loci are lines and points between the walls; smooth edges part cells, no more."""
+    """Reflexive loci are lines and points between the walls; smooth edges part cells, no more.
+
+    Areas agree to the tolerance that the sampled skeleton states: a small sheet is known to that
+    part of all sheets.
+    """
     traced = skeleton_of(name)
     found = decomp.skeleton(SOLIDS[name].make(), method="sampled")
     one, two = found.regions[0], traced.regions[0]
     ours, theirs = areas(found, one), areas(traced, two)
     assert ours.keys() == theirs.keys()
+    resolved = found.tolerance * sum(theirs.values())
     for pair, area in theirs.items():
-        assert ours[pair] == pytest.approx(area, rel=1e-2), pair
+        assert ours[pair] == pytest.approx(area, rel=1e-2, abs=resolved), pair
     for dimension in (0, 1):
         lengths = [
             [locus.length for locus in each.reflexive if locus.dimension == dimension]
