@@ -115,6 +115,19 @@ def test_uniform_wishes_need_no_field() -> None:
     assert sizing(geometry, wish, region_sizes(geometry, wanted)) == (0.5, None)
 
 
+def test_lengths_beside_a_slender_model_are_no_longer_than_half_of_it() -> None:
+    """The cube around a bar is mostly empty: lengths grew to more than the bar there."""
+    bar = decomp.Block((0, 0, 0), (500, 1, 1), name="bar") - decomp.Cylinder(
+        (250, 0.5, -1), (250, 0.5, 2), 0.2, name="hole"
+    )
+    geometry, surface = surface_of(bar)
+    wanted = Wanted(size=1.0)
+    wish = wishes(geometry, surface, wanted)
+    first, field = sizing(geometry, wish, region_sizes(geometry, wanted))
+    assert field is not None
+    assert max(first, field.sizes.max()) <= 0.5 * geometry.diagonal
+
+
 def test_edges_around_a_circle() -> None:
     geometry, surface = surface_of(SOLIDS["cylinder"].make())
     wish = wishes(geometry, surface, Wanted(size=0.5, per_circle=40))
