@@ -60,7 +60,8 @@ def ellipse_foot(
         while True:
             c, s = cos(t + step), sin(t + step)
             after = 0.5 * (aa * c * c + bb * s * s) - pa * c - pb * s
-            if after <= level or abs(step) <= CLOSE:
+            # so written that it ends where the point is none
+            if not (after > level and abs(step) > CLOSE):
                 break
             step *= 0.5
         t, level = t + step, after

@@ -42,3 +42,14 @@ def test_nearest_point(slope: float, far: float) -> None:
     )
     two_minima = norm(away) > gaps.min(axis=1) + 1e-4
     assert two_minima.mean() < 0.1
+
+
+@pytest.mark.parametrize("lost", [np.nan, np.inf])
+def test_points_that_are_none_have_no_foot(lost: float) -> None:
+    """Newton's method elsewhere may ask for them: the answer is none, and it comes."""
+    rod = Cylinder((0, 0, -4), (0, 0, 4), 2) & HalfSpace((0, 0, 0), (1, 0, 1))
+    geometry = Geometry(model(Block((-9, -9, -9), (18, 18, 18)) - rod))
+    boundary = geometry.regions[0]
+    edge = next(e for e in boundary.edges if isinstance(e.curve, Ellipse))
+    known = edge.curve.point(np.array([0.3]))
+    assert np.isnan(edge_foot(boundary, edge, np.array([[lost, 0, 0]]), known)).any()
