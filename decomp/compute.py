@@ -67,10 +67,7 @@ def skeleton(
         GeometryError: the solid, or its skeleton, cannot be computed; says where and what was
             tried.
     """
-    tolerance = positive(tolerance, "tolerance")
-    if tolerance > LARGEST:
-        raise InputError(f"tolerance must be at most {LARGEST:g}, got {tolerance:g}")
-    called(progress, "progress")
+    tolerance = checked(tolerance, progress)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
 
@@ -82,6 +79,20 @@ def skeleton(
     with geometry.frame(), located(geometry):
         found = first_of([way(samples) for samples in SAMPLES])
     return moved_skeleton(found, geometry.offset)
+
+
+def checked(tolerance: object, progress: object) -> float:
+    """A skeleton's options as they are given: the tolerance as a number.
+
+    Raises:
+        InputError: the tolerance is no number above zero, or larger than a tenth; or the progress
+            cannot be called.
+    """
+    number = positive(tolerance, "tolerance")
+    if number > LARGEST:
+        raise InputError(f"tolerance must be at most {LARGEST:g}, got {number:g}")
+    called(progress, "progress")
+    return number
 
 
 class _Attempt:

@@ -7,12 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal, get_args
 
-from decomp.compute import TOLERANCE
+from decomp.compute import TOLERANCE, checked
 from decomp.compute import skeleton as traced_skeleton
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError, InputError
 from decomp.geometry import Geometry
+from decomp.located import located
 from decomp.medial.moved import moved_skeleton
 from decomp.medial.result import Skeleton
 from decomp.sampled.sampling import sampled_skeleton
@@ -42,12 +43,13 @@ def skeleton(
 
     Raises:
         FileError: the file cannot be read.
-        InputError: there is no such method.
+        InputError: there is no such method, or the tolerance or the progress are none.
         GeometryError: the solid, or its skeleton, cannot be computed; says where and what was
             tried.
     """
     if method not in get_args(Method):
         raise InputError(f"method must be one of {get_args(Method)}, got {method!r}")
+    tolerance = checked(tolerance, progress)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     tell = progress or (lambda what, done: None)
     if method == "sampled":
@@ -67,6 +69,6 @@ def skeleton(
 
 
 def _sampled(geometry: Geometry, tolerance: float, tell: Progress) -> Skeleton:
-    with geometry.frame():
+    with geometry.frame(), located(geometry):
         found = sampled_skeleton(geometry.local, tolerance, tell)
     return moved_skeleton(found, geometry.offset)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 import pytest
@@ -14,6 +14,7 @@ import decomp
 from decomp.errors import InputError
 from decomp.tetra.check import check
 from decomp.vectors import number, vector
+from decomp.ways import Method
 
 BLOCK: Any = decomp.Block((0, 0, 0), (1, 1, 1), name="b")
 NAN = float("nan")
@@ -86,16 +87,23 @@ def test_sources(ask: Callable[[Any], Any], source: Any) -> None:
 
 OTHERS: dict[str, tuple[Callable[[], Any], str]] = {
     **{
-        f"tolerance {value!r}": (
-            lambda value=value: decomp.skeleton(BLOCK, tolerance=value),
+        f"tolerance {value!r}, {method}": (
+            lambda value=value, method=method: decomp.skeleton(
+                BLOCK, tolerance=value, method=method
+            ),
             f"tolerance must be {kind}, got",
         )
+        for method in get_args(Method)
         for value, kind in [
             *(("x", "a number"), (True, "a number"), (None, "a number"), (0, "positive")),
             *((-1, "positive"), (NAN, "finite"), (0.5, "at most 0.1")),
         ]
     },
     "progress": (lambda: decomp.skeleton(BLOCK, progress=1), "progress must be a function"),  # type: ignore[arg-type]
+    "progress, sampled": (
+        lambda: decomp.skeleton(BLOCK, progress=1, method="sampled"),  # type: ignore[arg-type]
+        "progress must be a function",
+    ),
     "no skeleton": (lambda: decomp.mid_surface(BLOCK), "is that of a skeleton"),
     "epsilon": (lambda: check(BLOCK, "a.msh", epsilon=-1), "epsilon must be positive, got -1"),
     "text epsilon": (lambda: check(BLOCK, "a.msh", epsilon="x"), "epsilon must be a number"),  # type: ignore[arg-type]
