@@ -55,7 +55,6 @@ def register(commands: Any) -> None:
         "the report of `decomp mesh` counts them (default 0)",
     )
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     parser.set_defaults(run=run)
 
 

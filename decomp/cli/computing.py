@@ -40,7 +40,6 @@ def add_options(
         "between points with different nearest sites, placed exactly, which many parts with "
         "junctions close together do not hold; auto: traced, and sampled where that fails",
     )
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def computed(options: argparse.Namespace) -> Skeleton:

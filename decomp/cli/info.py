@@ -9,7 +9,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.printed import complain
 from decomp.cli.said import say
+from decomp.errors import DecompError
 from decomp.places import digits_of
 
 if TYPE_CHECKING:
@@ -26,25 +28,55 @@ def register(commands: Any) -> None:
         "box, Euler characteristic, faces, edges and vertices. Volume and area come from exact "
         "geometry by quadrature, with an estimate of the error.",
     )
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
-    parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    parser.add_argument(
+        "models",
+        type=Path,
+        nargs="+",
+        metavar="MODEL",
+        help="Netgen .geo, OpenSCAD .csg or decomp .json",
+    )
+    parser.add_argument(
+        "--json", action="store_true", help="print everything as JSON; of several models a list"
+    )
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> None:
-    """Load, compute, print."""
+    """Load, compute, print; of several models those that can be computed.
+
+    Raises:
+        DecompError: a model cannot be read, or is no solid; the others have been told of.
+    """
+    several = len(options.models) > 1
+    found, failed = [], 0
+    for path in options.models:
+        try:
+            result = _computed(path, options.quiet)
+        except DecompError as error:
+            if not several:
+                raise
+            complain(f"decomp: error: {error}")
+            failed += 1
+            continue
+        if options.json:
+            found.append(as_json(result))
+        elif not options.quiet:
+            say([*as_text(result), *([""] if several else [])])
+    if options.json:
+        print(json.dumps(found if several else found[0], indent=1))
+    if failed:
+        raise DecompError(f"{failed} of {len(options.models)} models failed")
+
+
+def _computed(path: Path, quiet: bool) -> Geometry:
     from decomp.cli.progress import working
     from decomp.formats import load
     from decomp.geometry import Geometry
 
-    with working(f"reading {options.model.name}"):
-        model = load(options.model)
-    with working(f"computing the boundary of {model.name}"):
-        result = Geometry(model)
-    if options.json:
-        print(json.dumps(as_json(result), indent=1))
-    else:
-        say(as_text(result))
+    with working(f"reading {path.name}", quiet):
+        model = load(path)
+    with working(f"computing the boundary of {model.name}", quiet):
+        return Geometry(model)
 
 
 def as_json(result: Geometry) -> dict[str, Any]:

@@ -6,45 +6,48 @@ import argparse
 import signal
 import sys
 from collections.abc import Sequence
+from contextlib import nullcontext
 from typing import NoReturn
 
-from decomp.cli import cells, check, convert, describe, info, mesh, skeleton, view
+from decomp.cli import cells, check, completion, convert, describe, info, mesh, skeleton, view, warm
 from decomp.cli.ending import EndedError, endings, leave
+from decomp.cli.parsing import Parser
 from decomp.cli.printed import ReaderGoneError, complain, printing
 from decomp.errors import DecompError, GeometryError
+from decomp.kernels.news import told_of_compiling
 from decomp.tetra.workplace import sweep
 
 EXAMPLES = """\
 examples:
-  decomp mesh part.geo                 part.msh: a mesh with a name on every cell and face
-  decomp check part.geo part.msh       whether a mesh is one of its model
-  decomp info part.geo                 what is in a model: volume, faces, edges
-  decomp info part.csg --json          the same for programs
-  decomp convert part.geo part.json    from Netgen or OpenSCAD to decomp's own form
-  decomp skeleton part.geo -o part.vtu its skeleton, for ParaView
-  decomp describe part.geo             what surface every sheet of it lies on
-  decomp cells part.geo -o cells       the parts into which the skeleton cuts it
-  decomp view part.geo -o part.html    a page to turn, slice and explode it
+  decomp mesh part.geo                  part.msh: a mesh with all names
+  decomp check part.geo part.msh        whether a mesh is one of its model
+  decomp info part.geo                  what is in a model: volume, faces, edges
+  decomp info part.csg --json           the same for programs
+  decomp convert part.geo part.json     from Netgen or OpenSCAD to decomp's form
+  decomp skeleton part.geo -o part.vtu  its skeleton, for ParaView
+  decomp describe part.geo              what surface every sheet of it lies on
+  decomp cells part.geo -o cells        the cells that the skeleton cuts out
+  decomp view part.geo -o part.html     a page to turn, slice and explode it
 """
 
 INTERRUPTED = 130
-COMMANDS = (mesh, check, info, skeleton, describe, cells, view, convert)
+COMMANDS = (mesh, check, info, skeleton, describe, cells, view, convert, warm, completion)
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """The argument parser with all subcommands."""
-    result = argparse.ArgumentParser(
+    result = Parser(
         prog="decomp",
         description="Meshes, exact boundaries and skeletons of solids defined by constructive "
         "solid geometry (CSG).",
         epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     result.add_argument("--version", action="store_true", help="print the version and exit")
     commands = result.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     for module in COMMANDS:
         module.register(commands)
     for command in dict.fromkeys(commands.choices.values()):
+        command.add_argument("--quiet", action="store_true", help="say nothing but errors")
         command.add_argument(
             "--verbose",
             action="store_true",
@@ -103,10 +106,15 @@ def _run(options: argparse.Namespace) -> int:
     if options.command is None:
         parser().print_help()
         return 2
-    with endings():
+    news = nullcontext() if options.quiet else told_of_compiling(_compiling)
+    with endings(), news:
         sweep()
         options.run(options)
     return 0
+
+
+def _compiling() -> None:
+    complain("decomp: compiling kernels (once, half a minute; `decomp warm` does it beforehand)")
 
 
 def program() -> NoReturn:

@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\
 examples:
-  decomp mesh part.geo                          part.msh, sizes from the model
-  decomp mesh part.geo -o part.vtu              for ParaView
-  decomp mesh part.geo --size 2 --layers 3      edges of about 2, three elements across walls
-  decomp mesh part.geo --order 2 -o part.inp    10-node tetrahedra for CalculiX or Abaqus
+  decomp mesh part.geo                        part.msh, sizes from the model
+  decomp mesh part.geo -o part.vtu            for ParaView
+  decomp mesh part.geo --size 2 --layers 3    edges of about 2, 3 across walls
+  decomp mesh part.geo --order 2 -o part.inp  10-node tetrahedra for CalculiX
   decomp mesh part.geo --volumes regions --no-sheets
-                                                one volume per region, no inner surfaces
-  decomp mesh part.geo --cells none             no skeleton: faces, interfaces and regions alone
-  decomp mesh *.geo -o meshes --jobs 2          many models, two at a time, with a table
-  decomp mesh part.geo --report part.json       figures for programs too
+                                              one volume per region
+  decomp mesh part.geo --cells none           without a skeleton: faces, regions
+  decomp mesh *.geo -o meshes --jobs 2        many models, two at a time
+  decomp mesh part.geo --report part.json     figures for programs too
 """
 
 
@@ -41,7 +41,6 @@ def register(commands: Any) -> None:
         "boundary face, interface and sheet is a physical group with a name, and nodes lie on the "
         "exact surfaces.",
         epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "models",
@@ -59,7 +58,6 @@ def register(commands: Any) -> None:
         choices=[suffix[1:] for suffix in SUFFIXES],
         help="of several models: what is written (default msh)",
     )
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
     _size_options(parser)
     _tag_options(parser)
     _file_options(parser)

@@ -10,9 +10,9 @@ from decomp.plain import plain
 
 
 @contextmanager
-def working(what: str) -> Iterator[None]:
+def working(what: str, quiet: bool) -> Iterator[None]:
     """Show a spinner with a text and the time taken, while the body runs."""
-    if not sys.stderr.isatty():
+    if quiet or not sys.stderr.isatty():
         yield
         return
     from rich.console import Console

@@ -17,6 +17,8 @@ from typing import Any
 
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
+from decomp.kernels.news import compiling
+
 DIGEST = hashlib.sha256().digest_size
 
 
@@ -34,6 +36,13 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         super().__init__(function)
         stamp = self._impl.locator.get_source_stamp()
         self._cache_file = CheckedFiles(self._cache_path, self._impl.filename_base, stamp)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """The kept machine code for a signature; None where it has to be compiled."""
+        found = super().load_overload(sig, target_context)
+        if found is None:
+            compiling()
+        return found
 
     @contextmanager
     def _guard_against_spurious_io_errors(self) -> Iterator[None]:

@@ -1,0 +1,50 @@
+"""`decomp completion`: what a shell needs to complete commands, options and files."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+SHELLS = ("bash", "zsh", "tcsh")
+
+EXAMPLES = """\
+examples:
+  eval "$(decomp completion bash)"              in ~/.bashrc
+  decomp completion zsh > ~/.zfunc/_decomp      with fpath+=~/.zfunc in ~/.zshrc
+"""
+
+
+def register(commands: Any) -> None:
+    """Add the subcommand to a parser."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "completion",
+        help="print what a shell needs to complete this command line",
+        description="Print a script that has a shell complete commands, options, choices and "
+        "names of files.",
+        epilog=EXAMPLES,
+    )
+    parser.add_argument("shell", choices=SHELLS, help="which it is for")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> None:
+    """Print the script."""
+    import shtab
+
+    from decomp.cli.main import parser
+
+    whole = parser()
+    _complete_files(whole)
+    print(shtab.complete(whole, options.shell))
+
+
+def _complete_files(parser: argparse.ArgumentParser) -> None:
+    """Have arguments that are paths completed as names of files."""
+    import shtab
+
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for command in action.choices.values():
+                _complete_files(command)
+        elif getattr(action.type, "__name__", "") == "Path":
+            action.complete = shtab.FILE  # type: ignore[attr-defined]
