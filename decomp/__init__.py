@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from decomp.medial.facing import mid_surface as mid_surface
     from decomp.medial.result import Skeleton as Skeleton
     from decomp.meshing import mesh as mesh
+    from decomp.outside import with_outside as with_outside
     from decomp.tetra.mesh import TetMesh as TetMesh
     from decomp.ways import skeleton as skeleton
 
@@ -66,6 +67,7 @@ _HOMES = {
     "decomp.medial.facing": ("MidSurface", "mid_surface"),
     "decomp.medial.result": ("Skeleton",),
     "decomp.meshing": ("mesh",),
+    "decomp.outside": ("with_outside",),
     "decomp.tetra.mesh": ("TetMesh",),
     "decomp.ways": ("skeleton",),
 }

@@ -22,7 +22,7 @@ from decomp.plain import plain
 
 PASSED = (
     *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
-    *("ascii", "msh2", "timeout", "quiet"),
+    *("ascii", "msh2", "timeout", "quiet", "outside", "outside_only"),
 )
 """Options that are handed on."""
 PATIENCE = 1.5

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import positive
+from decomp.cli.models import FILES, add_outside, model_of
 from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
 
@@ -28,7 +29,7 @@ def register(commands: Any) -> None:
         "surfaces, no tetrahedron across an interface. Each shortcoming is told in a line; if "
         "there is any, the exit code is 1.",
     )
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument("model", type=Path, help=FILES)
     parser.add_argument("mesh", type=Path, help="Gmsh .msh")
     parser.add_argument(
         "--epsilon",
@@ -55,6 +56,7 @@ def register(commands: Any) -> None:
         "the report of `decomp mesh` counts them (default 0)",
     )
     parser.add_argument("--json", action="store_true", help="print everything as JSON")
+    add_outside(parser)
     parser.set_defaults(run=run)
 
 
@@ -72,7 +74,7 @@ def run(options: argparse.Namespace) -> None:
         raise InputError(f"{options.mesh} is a model: give the model first, then its mesh")
     with reporting(options.quiet) as tell:
         found = check(
-            options.model,
+            model_of(options, options.model),
             options.mesh,
             epsilon=options.epsilon,
             volume_error=options.volume_error,

@@ -10,6 +10,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from decomp.cli.models import FILES, add_outside, model_of
 from decomp.plain import plain
 
 if TYPE_CHECKING:
@@ -19,9 +20,7 @@ TOLERANCE = 5e-4
 LARGEST = 0.1
 
 
-def add_options(
-    parser: argparse.ArgumentParser, files: str = "Netgen .geo, OpenSCAD .csg or decomp .json"
-) -> None:
+def add_options(parser: argparse.ArgumentParser, files: str = FILES) -> None:
     """The options that say which skeleton to compute, and how loudly."""
     parser.add_argument("model", type=Path, help=files)
     parser.add_argument(
@@ -40,6 +39,7 @@ def add_options(
         "between points with different nearest sites, placed exactly, which many parts with "
         "junctions close together do not hold; auto: traced, and sampled where that fails",
     )
+    add_outside(parser)
 
 
 def computed(options: argparse.Namespace) -> Skeleton:
@@ -48,13 +48,12 @@ def computed(options: argparse.Namespace) -> Skeleton:
     Raises:
         DecompError: the model cannot be read, is no solid, or its skeleton cannot be certified.
     """
-    from decomp.formats import load
     from decomp.geometry import Geometry
     from decomp.ways import skeleton
 
     with reporting(options.quiet) as report:
         report(f"reading {options.model.name}", 0.0)
-        model = load(options.model)
+        model = model_of(options, options.model)
         report(f"computing the boundary of {model.name}", 0.0)
         geometry = Geometry(model)
         return skeleton(geometry, options.tolerance, report, options.method)

@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from decomp.cli.models import FILES, add_outside, model_of
+
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
@@ -15,14 +17,15 @@ def register(commands: Any) -> None:
         description="Read a CSG model and write it as decomp JSON, which keeps every model "
         "exactly: its tree, names, transforms and options.",
     )
-    parser.add_argument("model", type=Path, help="Netgen .geo, OpenSCAD .csg or decomp .json")
+    parser.add_argument("model", type=Path, help=FILES)
     parser.add_argument("output", type=Path, help="file to write, ending in .json")
+    add_outside(parser)
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> None:
     """Check the output, load, save."""
-    from decomp.formats import check_saving, load, save
+    from decomp.formats import check_saving, save
 
     check_saving(options.output, options.model)
-    save(load(options.model), options.output)
+    save(model_of(options, options.model), options.output)

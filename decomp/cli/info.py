@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.models import FILES, add_outside, model_of
 from decomp.cli.printed import complain
 from decomp.cli.said import say
 from decomp.errors import DecompError
@@ -33,11 +34,12 @@ def register(commands: Any) -> None:
         type=Path,
         nargs="+",
         metavar="MODEL",
-        help="Netgen .geo, OpenSCAD .csg or decomp .json",
+        help=FILES,
     )
     parser.add_argument(
         "--json", action="store_true", help="print everything as JSON; of several models a list"
     )
+    add_outside(parser)
     parser.set_defaults(run=run)
 
 
@@ -51,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
     found, failed = [], 0
     for path in options.models:
         try:
-            result = _computed(path, options.quiet)
+            result = _computed(path, options)
         except DecompError as error:
             if not several:
                 raise
@@ -68,14 +70,13 @@ def run(options: argparse.Namespace) -> None:
         raise DecompError(f"{failed} of {len(options.models)} models failed")
 
 
-def _computed(path: Path, quiet: bool) -> Geometry:
+def _computed(path: Path, options: argparse.Namespace) -> Geometry:
     from decomp.cli.progress import working
-    from decomp.formats import load
     from decomp.geometry import Geometry
 
-    with working(f"reading {path.name}", quiet):
-        model = load(path)
-    with working(f"computing the boundary of {model.name}", quiet):
+    with working(f"reading {path.name}", options.quiet):
+        model = model_of(options, path)
+    with working(f"computing the boundary of {model.name}", options.quiet):
         return Geometry(model)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output, positive
+from decomp.cli.models import add_outside, model_of
 from decomp.cli.said import say
 
 if TYPE_CHECKING:
@@ -61,6 +62,7 @@ def register(commands: Any) -> None:
     _size_options(parser)
     _tag_options(parser)
     _file_options(parser)
+    add_outside(parser)
     parser.set_defaults(run=run)
 
 
@@ -231,7 +233,6 @@ def meshed(
     """
     from decomp.cli.computing import reporting
     from decomp.cli.stages import Stages
-    from decomp.formats import load
     from decomp.geometry import Geometry
     from decomp.meshing import mesh
     from decomp.tetra.report import report
@@ -239,7 +240,7 @@ def meshed(
     with nullcontext(told) if told else reporting(options.quiet) as tell:
         stages = Stages(tell)
         stages("reading", 0.0)
-        model = load(options.model)
+        model = model_of(options, options.model)
         stages("boundary", 0.0)
         geometry = Geometry(model)
         made = mesh(

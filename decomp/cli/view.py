@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output
 from decomp.cli.said import say
+from decomp.errors import InputError
 
 if TYPE_CHECKING:
     from decomp.view.scene import Scene
@@ -42,6 +43,8 @@ def run(options: argparse.Namespace) -> None:
     suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
     check_outputs(options.output, [options.model])
     is_model = options.model.suffix.lower() in MODELS
+    if not is_model and options.outside:
+        raise InputError(f"--outside is for models; {options.model} is what was made of one")
     skeleton = computed(options) if is_model else None
     scene = scene_of(options.model, skeleton)
     for path, suffix in zip(options.output, suffixes, strict=True):
