@@ -192,6 +192,11 @@ def turned_rounded_box() -> Solid:
     return rounded_box().rotate((0.3, -0.31, -0.11), 78.7)
 
 
+def low_rounded_box() -> Solid:
+    """Its height is three radii: where two edges' cylinders meet, the corner's sphere osculates."""
+    return rounded_box((4, 3, 3 * ROUND))
+
+
 def cone_on_an_edge() -> Solid:
     """Where the block's edge enters the cone two trims lead to one node, each in one chord."""
     return Block((0, 0, 0), (4.4, 4.4, 3.5)) | Cone((4.3, 0.7, 1.3), 1.15, (4.3, 7.4, 1.3), 0.46)
@@ -333,6 +338,12 @@ COINCIDENCES: dict[str, Coincidence] = {
     "turned rounded box": Coincidence(
         turned_rounded_box,
         (6 + 2 * (6 + 2 + 3) * ROUND + pi * 6 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
+        (1,),
+    ),
+    # between the centres of its corners there are 3 x 2 x 0.5
+    "low rounded box": Coincidence(
+        low_rounded_box,
+        (3 + 2 * (6 + 1 + 1.5) * ROUND + pi * 5.5 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
         (1,),
     ),
     "ball in wide air": Coincidence(
