@@ -197,6 +197,12 @@ def low_rounded_box() -> Solid:
     return rounded_box((4, 3, 3 * ROUND))
 
 
+def cross_of_rods() -> Solid:
+    """About its middle the vertices alone are near: no face or edge sees the seams there."""
+    rod = Cylinder((0, 0, -3), (0, 0, 3), 1)
+    return rod | rod.rotate((1, 0, 0), 90) | rod.rotate((0, 1, 0), 90)
+
+
 def cone_on_an_edge() -> Solid:
     """Where the block's edge enters the cone two trims lead to one node, each in one chord."""
     return Block((0, 0, 0), (4.4, 4.4, 3.5)) | Cone((4.3, 0.7, 1.3), 1.15, (4.3, 7.4, 1.3), 0.46)
@@ -346,6 +352,8 @@ COINCIDENCES: dict[str, Coincidence] = {
         (3 + 2 * (6 + 1 + 1.5) * ROUND + pi * 5.5 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
         (1,),
     ),
+    # two rods have 16 r^3 / 3 in common, all three 8 (2 - sqrt(2)) r^3
+    "cross of rods": Coincidence(cross_of_rods, (18 * pi - 8 * sqrt(2),), (1,)),
     "ball in wide air": Coincidence(
         ball_in_wide_air, (4 / 3 * pi * (300.0**3 - 1), 4 / 3 * pi), (2, 1)
     ),
