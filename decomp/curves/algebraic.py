@@ -10,6 +10,7 @@ import numpy as np
 
 from decomp.carriers import Carrier
 from decomp.curves.base import Curve
+from decomp.curves.critical import critical_points
 from decomp.curves.series import Series, series
 from decomp.curves.touching import APART, Touching
 from decomp.vectors import Array, Bools, dot
@@ -21,7 +22,7 @@ def conic_roots(
     """Parameters where the conic is on the carrier (or on a cone's other nappe); touches?"""
     f = series(curve, carrier)
     slope = f.derivative()
-    critical = _polished(slope, slope.derivative(), slope.zeros())
+    critical = critical_points(f, curve.period if curve.closed else None)
     if curve.closed:
         if len(critical) == 0:
             return np.empty(0), np.empty(0, dtype=bool)
@@ -117,12 +118,3 @@ def on_carrier(curve: Curve, carrier: Carrier, t: Array) -> Array:
         step = carrier.signed_distance(p) / np.where(d == 0, 1.0, d)
         t = np.where((np.abs(step) < 1e-7 * curve.period) & (d != 0), t - step, t)
     return t
-
-
-def _polished(f: Series, slope: Series, t: Array) -> Array:
-    """Newton steps for zeros of f, as far as they stay near."""
-    for _ in range(3):
-        d = slope.value(t)
-        step = f.value(t) / np.where(d == 0, 1.0, d)
-        t = np.where(np.abs(step) < 1e-3, t - step, t)
-    return np.sort(t)

@@ -14,6 +14,7 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.curves.algebraic import is_tangent
 from decomp.curves.base import Curve
+from decomp.curves.flat_touches import flat_touches
 from decomp.curves.touching import APART, Touching
 from decomp.vectors import Array, Bools, dot, norm
 
@@ -21,6 +22,9 @@ SPLIT = 4
 MOST_LEVELS = 8
 FASTEST = 1.2
 """Bound of the speed |x'(t)| of a traced curve, whose samples turn by a few degrees."""
+
+AT_REST = 1e-10
+"""Steps of Newton's method below this part of a curve's length have come to rest."""
 
 Function = Callable[[Array], Array]
 
@@ -62,11 +66,10 @@ def traced_roots(
     ends = np.unique(np.concatenate([low[sign0 == 0], high[sign1 == 0]]))
     ends, tangent = _settled(curve, carrier, ends, slope, tolerance)
     ends, tangent = _apart(ends, tangent, bottom[touch], float((high - low).max()))
-    t = np.concatenate([roots, bottom[touch], ends])
-    flags = np.concatenate(
-        [np.zeros(len(roots), dtype=bool), np.ones(int(touch.sum()), dtype=bool), tangent]
-    )
-    return t, flags
+    touching = np.concatenate([bottom[touch], ends[tangent]])
+    touching = flat_touches(curve, distance, touching, tolerance)
+    t = np.concatenate([roots, ends[~tangent], touching])
+    return t, np.arange(len(t)) >= len(t) - len(touching)
 
 
 def _intervals(
@@ -136,13 +139,18 @@ def _bracketed(f: Function, low: Array, high: Array) -> Array:
 def _settled(
     curve: Curve, carrier: Carrier, t: Array, slope: Function, tolerance: float
 ) -> tuple[Array, Bools]:
-    """Polish parameters within tolerance of the carrier by Newton, unless it is a touch."""
+    """Polish parameters within tolerance of the carrier by Newton, unless it is a touch.
+
+    At a crossing Newton's method is at rest at once; beside a touch it halves the way.
+    """
     tangent = is_tangent(curve, carrier, t, tolerance)
-    for _ in range(3):
-        d = slope(t)
-        step = carrier.signed_distance(curve.point(t)) / np.where(d == 0, 1.0, d)
-        t = np.where(tangent, t, t - step)
-    return curve.wrapped(t), tangent
+    crossing, step = t, np.zeros(t.shape)
+    for _ in range(4):
+        d = slope(crossing)
+        step = carrier.signed_distance(curve.point(crossing)) / np.where(d == 0, 1.0, d)
+        crossing = np.where(tangent, t, crossing - step)
+    tangent = tangent | (np.abs(step) > AT_REST * curve.period)
+    return curve.wrapped(np.where(tangent, t, crossing)), tangent
 
 
 def _apart(t: Array, flags: Bools, others: Array, width: float) -> tuple[Array, Bools]:

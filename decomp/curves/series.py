@@ -35,6 +35,10 @@ class Series(ABC):
         """f(t)."""
 
     @abstractmethod
+    def bound(self) -> float:
+        """|f| is nowhere larger on the curve's domain."""
+
+    @abstractmethod
     def derivative(self) -> Series:
         """f'."""
 
@@ -52,6 +56,9 @@ class Fourier(Series):
     def value(self, t: Array) -> Array:
         return trigonometric_value(self.c, t)
 
+    def bound(self) -> float:
+        return float(np.abs(self.c).sum())
+
     def derivative(self) -> Fourier:
         return Fourier(trigonometric_derivative(self.c))
 
@@ -68,6 +75,10 @@ class Exponential(Series):
     def value(self, t: Array) -> Array:
         n = len(self.c) // 2
         return np.asarray((np.exp(np.multiply.outer(t, np.arange(-n, n + 1))) @ self.c).real)
+
+    def bound(self) -> float:
+        n, farthest = len(self.c) // 2, max(abs(end) for end in self.domain)
+        return float(np.abs(self.c) @ np.exp(np.abs(np.arange(-n, n + 1)) * farthest))
 
     def derivative(self) -> Exponential:
         n = len(self.c) // 2
@@ -89,6 +100,9 @@ class Chebyshev(Series):
 
     def value(self, t: Array) -> Array:
         return np.asarray(chebyshev.chebval((t - self.middle) / self.half, self.c))
+
+    def bound(self) -> float:
+        return float(np.abs(self.c).sum())
 
     def derivative(self) -> Chebyshev:
         slope = np.asarray(chebyshev.chebder(self.c), dtype=np.float64)

@@ -44,7 +44,9 @@ NOISE = 1e-6
 NEARER = (1e-5, 1e-5, 1e-6)
 """How far beyond an end derivatives are taken, in units of the size, step by step."""
 PARTS = 32
-"""Parts into which an interval is cut to narrow down where zeros end."""
+"""Parts into which an interval is cut to narrow down where zeros are."""
+NARROWER = 10
+"""How often: each time it becomes a sixteenth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,6 +195,7 @@ class _Search:
             # a zero can lie closer to a sample than its depth allows
             open_ = ~zero & (depth < 2 * width)
             if width <= FINEST * self._size or not open_.any():
+                zeros.append(self._points(u[open_], width))
                 break
             width /= 2
             u = np.unique(np.concatenate([u[open_] - width, u[open_] + width]))
@@ -203,6 +206,24 @@ class _Search:
         gaps = np.flatnonzero(np.diff(at) > 1.5 * (high - low) / count)
         starts, ends = np.append(0, gaps + 1), np.append(gaps, len(at) - 1)
         return [(float(at[i]), float(at[j])) for i, j in zip(starts, ends, strict=True)]
+
+    def _points(self, u: Array, width: float) -> Array:
+        """Zeros that are points, near some of the last samples: the depth is least there."""
+        groups = np.split(u, np.flatnonzero(np.diff(u) > 1.5 * width) + 1) if len(u) else []
+        found = []
+        for group in groups:
+            low, high = (
+                float(np.clip(end, *self._locus.span))
+                for end in (group[0] - width, group[-1] + width)
+            )
+            for _ in range(NARROWER):
+                cuts = np.linspace(low, high, PARTS + 1)
+                least = int(np.argmin(self._depth(cuts)))
+                low, high = float(cuts[max(least - 1, 0)]), float(cuts[min(least + 1, PARTS)])
+            middle = np.array([(low + high) / 2])
+            if self._depth(middle)[0] <= self._zero:
+                found.append(middle)
+        return np.concatenate([np.empty(0), *found])
 
     def _part(self, a: float, b: float) -> ReflexivePart | None:
         locus = self._locus

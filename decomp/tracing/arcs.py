@@ -4,6 +4,8 @@ There a ball touches a face, or an edge, along an arc of a circle about the axis
 contacts' gradients, see `local`, then has no facets with points inside such an arc as corners, but
 the flat one that the circle spans: along its normal goes the axis, which is no seam. So seams leave
 along facets whose corners are ends of arcs and single contacts, if the arcs themselves lie inside.
+Where arcs have shrunk to their ends, as at the middle of a cross of rods, the axis is at its end,
+and what goes on along the flat facet's normal is a seam between the ends.
 """
 
 from __future__ import annotations
@@ -35,6 +37,8 @@ TURNS = 180
 ON_BOUNDARY = 1e-10
 NEAR = 1e-5
 """A junction is looked for on a locus that is nearer than this part of the size."""
+AHEAD = 1e-3
+"""Whether an axis goes on is seen so many radii ahead."""
 INSIDE = 1e-6
 """An arc lies inside a facet's plane unless its gradients leave it by more than this."""
 
@@ -111,9 +115,32 @@ class Arcs:
         for ray in seam_rays(touching.gradients[corners]):
             chosen = tuple(int(corners[k]) for k in ray.contacts)
             beyond = arcs @ ray.direction < ray.slope - INSIDE
-            if not all(on[k] for k in chosen) and not beyond.any():
+            if beyond.any():
+                continue
+            of_arcs = all(on[k] for k in chosen)
+            if not of_arcs or self._ends(point, ray.direction, touching.radius, faces, edges):
                 found.append(replace(ray, contacts=chosen))
         return found
+
+    def _ends(
+        self, point: Array, direction: Array, radius: float, faces: set[int], edges: set[int]
+    ) -> bool:
+        """Whether a direction from a point is that of straight loci which all end there."""
+        carriers = [self._boundary.carriers[self._boundary.faces[k].carrier] for k in faces]
+        circles = [self._circles[k] for k in edges]
+        if any(isinstance(carrier, Torus) for carrier in carriers):
+            return False
+        axes = [_axis(carrier, point) for carrier in carriers]
+        axes += [cross(circle.x, circle.y) for circle in circles]
+        if any(float(norm(cross(axis, direction))) > INSIDE for axis in axes):
+            return False
+        ahead = point + AHEAD * radius * direction
+        seen = float(self._queries.nearest(ahead[None]).distance[0])
+        far = [abs(float(carrier.signed_distance(ahead))) for carrier in carriers]
+        far += [float(np.hypot(norm(ahead - c.centre), c.radius)) for c in circles]
+        return (
+            seen > max(far) + ON_BOUNDARY * self._size or seen < min(far) - ON_BOUNDARY * self._size
+        )
 
     def centre(self, last: State) -> Array | None:
         """The centre of a ball's faces that a seam has come to, None if it has come to none.

@@ -122,6 +122,33 @@ def test_traced_curve_touches_a_plane() -> None:
     assert len(crossings(one.curve, Plane(ORIGIN, Y), TOLERANCE).parameters) == 2
 
 
+@pytest.mark.parametrize("height", [0.5, 1.0, 2.0])
+def test_touches_of_higher_order_are_one(height: float) -> None:
+    """Where two carriers' curve osculates a third one it leaves it by the fourth power only."""
+    along, upright = Cylinder(ORIGIN, X, height), Cylinder(ORIGIN, Z, height)
+    ball = Sphere(height * Z, height)
+    touch = height * (X + Z)
+    for one, other, third in ((along, upright, ball), (along, ball, upright)):
+        met = [
+            (found.curve.point(hit.parameters), hit.tangential)
+            for found in meet(one, other).curves
+            for hit in [crossings(found.curve, third, TOLERANCE)]
+        ]
+        points = np.concatenate([points for points, _ in met])
+        near = np.linalg.norm(points - touch, axis=1) < 0.1 * height
+        tangential = np.concatenate([flags for _, flags in met])
+        assert tangential[near].tolist() == [True]
+        assert np.linalg.norm(points[near] - touch) < 1e-10 * height
+
+
+def test_a_touch_at_the_end_of_the_domain_is_one() -> None:
+    """The ellipse's parameter begins where it touches the sphere."""
+    ellipse = Ellipse(ORIGIN, unit(*(X + Z)), Y, sqrt(2.0), 1.0)
+    hit = crossings(ellipse, Sphere(Z, 1.0), TOLERANCE)
+    assert hit.tangential.tolist() == [True]
+    assert np.linalg.norm(ellipse.point(hit.parameters) - (X + Z)) < 1e-12
+
+
 def test_candidates_of_many_carriers() -> None:
     grid = [Cylinder(i * X + j * Y, Z, 0.3) for i in range(20) for j in range(20)]
     table = CarrierTable(grid)

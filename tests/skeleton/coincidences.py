@@ -192,6 +192,23 @@ def turned_rounded_box() -> Solid:
     return rounded_box().rotate((0.3, -0.31, -0.11), 78.7)
 
 
+def low_rounded_box() -> Solid:
+    """Its height is three radii: where two edges' cylinders meet, the corner's sphere osculates."""
+    return rounded_box((4, 3, 3 * ROUND))
+
+
+def pinned_rod() -> Solid:
+    """The hole begins a diameter from the end: one point of the axis is as near to end and hole."""
+    hole = Cylinder((2.6, -2, 0), (2.6, 2, 0), 0.6)
+    return (Cylinder((0, 0, 0), (7, 0, 0), 1) - hole).rotate((0.2, 0.3, 0.4), 31)
+
+
+def cross_of_rods() -> Solid:
+    """About its middle the vertices alone are near: no face or edge sees the seams there."""
+    rod = Cylinder((0, 0, -3), (0, 0, 3), 1)
+    return rod | rod.rotate((1, 0, 0), 90) | rod.rotate((0, 1, 0), 90)
+
+
 def cone_on_an_edge() -> Solid:
     """Where the block's edge enters the cone two trims lead to one node, each in one chord."""
     return Block((0, 0, 0), (4.4, 4.4, 3.5)) | Cone((4.3, 0.7, 1.3), 1.15, (4.3, 7.4, 1.3), 0.46)
@@ -255,6 +272,15 @@ def _branch_volume(outer: float, inner: float) -> float:
         return 2 * wide * (sqrt(outer**2 - y * y) - wide)
 
     return float(quad(depth, -inner, inner, epsabs=1e-12, epsrel=1e-13)[0])
+
+
+def _hole_volume(rod: float, hole: float) -> float:
+    """What a hole through a rod's axis takes out of it."""
+
+    def depth(z: float) -> float:
+        return 4 * sqrt(hole**2 - z**2) * sqrt(rod**2 - z**2)
+
+    return float(quad(depth, -hole, hole, epsabs=1e-12, epsrel=1e-13)[0])
 
 
 def _segment(radius: float, off: float) -> float:
@@ -335,6 +361,15 @@ COINCIDENCES: dict[str, Coincidence] = {
         (6 + 2 * (6 + 2 + 3) * ROUND + pi * 6 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
         (1,),
     ),
+    # between the centres of its corners there are 3 x 2 x 0.5
+    "low rounded box": Coincidence(
+        low_rounded_box,
+        (3 + 2 * (6 + 1 + 1.5) * ROUND + pi * 5.5 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
+        (1,),
+    ),
+    "pinned rod": Coincidence(pinned_rod, (7 * pi - _hole_volume(1, 0.6),), (0,)),
+    # two rods have 16 r^3 / 3 in common, all three 8 (2 - sqrt(2)) r^3
+    "cross of rods": Coincidence(cross_of_rods, (18 * pi - 8 * sqrt(2),), (1,)),
     "ball in wide air": Coincidence(
         ball_in_wide_air, (4 / 3 * pi * (300.0**3 - 1), 4 / 3 * pi), (2, 1)
     ),

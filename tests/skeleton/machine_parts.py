@@ -34,14 +34,14 @@ def nut() -> Solid:
     return hexagon(1, 1.2) - Cylinder((0, 0, -1), (0, 0, 2), 0.6, name="bore")
 
 
-def rounded_box() -> Solid:
+def rounded_box(size: tuple[float, float, float] = (4, 3, 2)) -> Solid:
     """All faces go on into one another: planes, cylinders along edges, spheres at corners."""
-    low, high = np.full(3, ROUND), np.array([4, 3, 2]) - ROUND
+    low, high = np.full(3, ROUND), np.array(size) - ROUND
     solid: Solid | None = None
     for axis in range(3):
-        start, size = low.copy(), high - low
-        start[axis], size[axis] = 0, size[axis] + 2 * ROUND
-        slab = Block(start, size, name="xyz"[axis])
+        start, extent = low.copy(), high - low
+        start[axis], extent[axis] = 0, extent[axis] + 2 * ROUND
+        slab = Block(start, extent, name="xyz"[axis])
         solid = slab if solid is None else solid | slab
     assert solid is not None
     ends = np.stack([low, high])

@@ -6,13 +6,14 @@ import numpy as np
 
 import decomp
 from decomp.boundary.topology import Convexity
-from decomp.csg.primitives import Block, Cone
+from decomp.csg.primitives import Block, Cone, Cylinder
 from decomp.curves import Line
 from decomp.medial.incidence import Incidence
 from decomp.medial.pieces import middle_row
 from decomp.medial.sampling import sampled
 from decomp.sites import SiteKind
 from decomp.tracing.edge_seeds import edge_jumps
+from decomp.tracing.graph import seam_graph
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, norm
 
@@ -35,6 +36,23 @@ def test_seams_between_straight_edges_are_seen_from_these() -> None:
     assert (seam & inside).any()
     gaps = norm(points[:, None] - feet)
     assert np.ptp(gaps[seam & inside], axis=1).max() < 1e-4
+
+
+def test_seams_between_vertices_are_seen_from_these() -> None:
+    """Around the middle of three rods that cross eight vertices are nearer than all else."""
+    rod = Cylinder((0, 0, -3), (0, 0, 3), 1)
+    part = decomp.Geometry(rod | rod.rotate((1, 0, 0), 90) | rod.rotate((0, 1, 0), 90))
+    queries = region_queries(part.index, 0)
+    points, feet = edge_jumps(part.regions[0], queries, 2000, np.random.default_rng(0))
+    middle = norm(points) < 0.7
+    off = np.sort(np.abs(points[middle]), axis=1)[:, 1]
+    assert middle.any() and off.max() < 1e-4
+    assert np.abs(np.abs(feet[middle]) - np.sqrt(0.5)).max() < 1e-12
+    seams = seam_graph(part.index, part.regions[0], 0, samples=2000).seams
+    ends = np.array([[seam.points[0], seam.points[-1]] for seam in seams])
+    assert len(seams) == 6
+    assert np.allclose(norm(ends).max(axis=1), np.sqrt(0.5), atol=1e-9)
+    assert np.allclose(norm(ends).min(axis=1), 0, atol=1e-9)
 
 
 def test_feet_are_not_looked_for_past_an_edges_end() -> None:
