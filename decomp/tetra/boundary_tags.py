@@ -45,22 +45,26 @@ class BoundaryTags:
     def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
         """The patches of triangles that bound regions[:, 0].
 
-        A face may have several patches with one region on their other side: it is the nearest.
+        A face has a say only if it has the region on their other side behind it, where any has: on
+        either side of a contact regions are close that do not meet there. Of several patches of a
+        face it is the nearest.
         """
-        faces = self._faces(points, triangles, regions[:, 0])
         known: dict[tuple[int, int, int], list[int]] = {}
         for number, own in enumerate(self._plan.sides):
             for region, face in own:
                 other = next((r for r, _ in own if r != region), OUTSIDE)
                 known.setdefault((region, face, other), []).append(number)
                 known.setdefault((region, face, ANY), []).append(number)
-        keys = np.stack([regions[:, 0], faces, regions[:, 1]], axis=1)
-        unique, which = np.unique(keys, axis=0, return_inverse=True)
         found = np.empty(len(triangles), dtype=np.int64)
-        for number, (r, f, other) in enumerate(unique.tolist()):
-            rows = np.flatnonzero(which.reshape(-1) == number)
-            candidates = known.get((r, f, other), known[r, f, ANY])
-            found[rows] = self._nearest(points[triangles[rows]], candidates)
+        for region, other in np.unique(regions, axis=0).tolist():
+            behind = other if any((r, o) == (region, other) for r, _, o in known) else ANY
+            listed = [face for r, face, o in known if (r, o) == (region, behind)]
+            rows = np.flatnonzero((regions == [region, other]).all(axis=1))
+            faces = self._faces(points, triangles[rows], region, listed)
+            for face in np.unique(faces).tolist():
+                own_rows = rows[faces == face]
+                candidates = known[region, face, behind]
+                found[own_rows] = self._nearest(points[triangles[own_rows]], candidates)
         return found
 
     def _nearest(self, corners: Array, candidates: Sequence[int]) -> Ints:
@@ -78,8 +82,8 @@ class BoundaryTags:
             self._trees[patch] = triangle_tree(mesh.points[mesh.patches[patch].triangles])
         return self._trees[patch]
 
-    def _faces(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
-        """The face of its region that each triangle lies on: nearest, and turned alike."""
+    def _faces(self, points: Array, triangles: Ints, region: int, listed: Sequence[int]) -> Ints:
+        """The face, of some of a region, that each triangle lies on: nearest, and turned alike."""
         corners = points[triangles]
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         normal /= np.maximum(norm(normal), 1e-300)[:, None]
@@ -88,25 +92,19 @@ class BoundaryTags:
         asked = asked - ASIDE * self._epsilon * normal[:, None]
         found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
         candidates = self._cells.face[found.site].reshape(-1, 4)
-        own = self._cells.region_of(found.part).reshape(-1, 4) == regions[:, None]
+        own = self._cells.region_of(found.part).reshape(-1, 4) == region
         best = np.full(len(triangles), -1, dtype=np.int64)
         least = np.full(len(triangles), np.inf)
-        for region in np.unique(regions).tolist():
-            boundary = self._surface.regions[region].boundary
-            for face in range(len(boundary.faces)):
-                rows = np.flatnonzero(
-                    (regions == region) & ((candidates == face) & own).any(axis=1)
-                )
-                cost = self._cost(region, face, corners[rows], normal[rows])
-                better = rows[cost < least[rows]]
-                least[better] = cost[cost < least[rows]]
-                best[better] = face
-            for row in np.flatnonzero((regions == region) & (best < 0)):
-                costs = [
-                    float(self._cost(region, face, corners[[row]], normal[[row]])[0])
-                    for face in range(len(boundary.faces))
-                ]
-                best[row] = int(np.argmin(costs))
+        for face in listed:
+            rows = np.flatnonzero(((candidates == face) & own).any(axis=1))
+            cost = self._cost(region, face, corners[rows], normal[rows])
+            better = rows[cost < least[rows]]
+            least[better] = cost[cost < least[rows]]
+            best[better] = face
+        rows = np.flatnonzero(best < 0)
+        if len(rows):
+            costs = [self._cost(region, face, corners[rows], normal[rows]) for face in listed]
+            best[rows] = np.asarray(listed)[np.argmin(costs, axis=0)]
         return best
 
     def _cost(self, region: int, face: int, corners: Array, normal: Array) -> Array:

@@ -69,12 +69,12 @@ def _best_goal(points: Array, tets: Ints, hull: Ints, node: int, goals: list[int
     for goal in goals:
         left = star[(star != goal).all(axis=1)]
         angle = float(least_dihedral(points, np.where(left == node, goal, left)).min(initial=180.0))
-        if angle >= most and _keeps_shape(tets, hull, node, goal):
+        if angle >= most and keeps_shape(tets, hull, node, goal):
             best, most = goal, angle
     return best
 
 
-def _keeps_shape(tets: Ints, hull: Ints, node: int, goal: int) -> bool:
+def keeps_shape(tets: Ints, hull: Ints, node: int, goal: int) -> bool:
     """Whether merging two nodes changes no connection (the link condition)."""
     closed = np.concatenate([tets, np.column_stack([hull, np.full(len(hull), OUTER)])])
     links = []

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.complex.refine_elements import Elements
+from decomp.tetra.clearing import cleared
 from decomp.tetra.collapsing import collapsed
 from decomp.tetra.faces import faces_of, is_complex
 from decomp.tetra.filling import filled
@@ -23,7 +24,7 @@ from decomp.tetra.project import Projector
 from decomp.tetra.separating import separated
 from decomp.tetra.shortening import LONGEST, Lengths
 from decomp.tetra.tagging import Tagged, Tagger
-from decomp.tetra.targets import Finder, renewed
+from decomp.tetra.targets import Finder, placed, renewed
 from decomp.vectors import Array, Bools, Ints
 
 ROUNDS = 8
@@ -81,7 +82,10 @@ def conformed(
         if len(left) and last:
             at = projector.points
             if tagger.still_right(tagged, at, part, faces, left):
-                mended = _mended(at, tets, part, left, tagger, tagged, finder)
+                rows = np.searchsorted(targets.nodes, left)
+                on = targets.dimension[rows], targets.element[rows]
+                goals, _ = placed(elements, plan.complex.points, *on, at[left])
+                mended = _mended(at, tets, part, left, goals, tagger, tagged, finder)
             else:
                 mended = at, tets, part
         if mended is None:
@@ -110,6 +114,7 @@ def _mended(
     tets: Ints,
     part: Ints,
     left: Ints,
+    goals: Array,
     tagger: Tagger,
     tagged: Tagged,
     finder: Finder,
@@ -134,7 +139,10 @@ def _mended(
     def lifted() -> tuple[Array, Ints, Ints] | None:
         return separated(*around, tagger.owner(tagged, left), tagger.parts_at)
 
-    for change in (put_back, merged, lifted):
+    def taken_in() -> tuple[Array, Ints, Ints] | None:
+        return cleared(*around, goals, finder.kinds(tagged))
+
+    for change in (put_back, merged, lifted, taken_in):
         found = change()
         if found is None:
             continue

@@ -106,14 +106,13 @@ def _around_edges(mesh: Complex) -> dict[tuple[int, int], tuple[int, ...]]:
 def _corners(
     mesh: Complex, lines: Sequence[tuple[int, ...]]
 ) -> tuple[Ints, tuple[tuple[int, ...], ...]]:
-    ends = sorted(
-        {
-            int(vertex)
-            for line, around in zip(mesh.lines, lines, strict=True)
-            if around and line.vertices[0] != line.vertices[-1]
-            for vertex in (line.vertices[0], line.vertices[-1])
-        }
-    )
+    at_ends: dict[int, int] = {}
+    for line, around in zip(mesh.lines, lines, strict=True):
+        for vertex in {int(line.vertices[0]), int(line.vertices[-1])} if around else set():
+            # alone, a closed line begins anywhere
+            closed = line.vertices[0] == line.vertices[-1]
+            at_ends[vertex] = at_ends.get(vertex, 0) + (1 if closed else 2)
+    ends = sorted(vertex for vertex, count in at_ends.items() if count > 1)
     found: dict[int, set[int]] = {vertex: set() for vertex in ends}
     is_end = np.zeros(len(mesh.points), dtype=np.bool_)
     is_end[ends] = True

@@ -11,6 +11,7 @@ from decomp.tetra.child import MeshingError, Settings, TimeLimit, tetrahedralize
 from decomp.tetra.classify import classified
 from decomp.tetra.conforming import Conformed, conformed
 from decomp.tetra.faces import faces_of
+from decomp.tetra.opening import Opener
 from decomp.tetra.preparation import Prepared, Progress
 from decomp.tetra.shortening import LONGEST, shortened, tightened
 from decomp.tetra.splitting import freed
@@ -74,7 +75,9 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     epsilon = raw.settings.epsilon
     part = classified(geometry, known, raw.points, raw.tets, epsilon)
     points, tets = _used(raw.points, raw.tets[part >= 0])
-    points, tets, part = freed(points, tets, part[part >= 0], known.region[known.cell])
+    opener = Opener(geometry, given.surface, known, plan, given.elements, epsilon)
+    points, tets, part = opener.opened(points, tets, part[part >= 0])
+    points, tets, part = freed(points, tets, part, known.region[known.cell])
     tell("projecting", 0.8)
     tagger = Tagger(geometry, given.surface, known, plan, epsilon)
     finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
