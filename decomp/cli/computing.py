@@ -32,15 +32,21 @@ def add_options(
         help="largest distance of a triangle from its exact surface, relative to the model's "
         f"diagonal (default {TOLERANCE:g})",
     )
+    add_method(parser)
+    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def add_method(parser: argparse.ArgumentParser | argparse._ArgumentGroup) -> None:
+    """The option that says how skeletons are found."""
     parser.add_argument(
         "--method",
         choices=("auto", "traced", "sampled"),
         default="traced",
         help="how the skeleton is found: traced curve by curve (default); sampled, as walls "
         "between points with different nearest sites, placed exactly, which many parts with "
-        "junctions close together do not hold; auto: traced, and sampled where that fails",
+        "junctions close together do not hold; auto: traced, and the regions "
+        "sampled where that fails",
     )
-    parser.add_argument("--quiet", action="store_true", help="say nothing but errors")
 
 
 def computed(options: argparse.Namespace) -> Skeleton:

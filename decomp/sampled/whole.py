@@ -126,6 +126,19 @@ def drawn(
     return replace(shown, loci=tuple(loci), complex=_with_loci(shown.complex, loci))
 
 
+def without_trims(given: Interior, tools: Sequence[RegionTools], shown: Drawn) -> Drawn:
+    """The same without trim surfaces; lines are those along which sheets and faces meet."""
+    patches = list(shown.complex.patches[: len(given.plan.complex.patches)])
+    walls, first = [], []
+    for made, start in zip(shown.walls, shown.first, strict=True):
+        first.append(len(patches))
+        patches += shown.complex.patches[start : start + len(made.sheets)]
+        walls.append(replace(made, trims=(), trim_patches=()))
+    points, vertices = shown.complex.points, list(shown.vertices)
+    left = _with_lines(given, tools, points, patches, walls, first, vertices)
+    return replace(left, loci=shown.loci, complex=_with_loci(left.complex, shown.loci))
+
+
 def _with_loci(given: Complex, loci: Sequence[Sequence[tuple[Run, Ints]]]) -> Complex:
     lines = list(given.lines)
     for own in loci:
