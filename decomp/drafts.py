@@ -76,12 +76,19 @@ def traced(
     for boundary in geometry.regions:
         if boundary.touches:
             raise ContactError(boundary.touches[0])
-    curves = []
-    for number, boundary in enumerate(geometry.regions):
-        tell(f"tracing {boundary.name}", number / len(geometry.regions))
-        with stage("tracing", boundary.name):
-            curves.append(region_curves(geometry.index, boundary, number, samples))
-    return curves
+    return [
+        traced_alone(geometry, number, samples, tell) for number in range(len(geometry.regions))
+    ]
+
+
+def traced_alone(
+    geometry: Geometry, number: int, samples: int, tell: Callable[[str, float], None]
+) -> RegionCurves:
+    """The curves of one region; arguments and errors as of `traced`."""
+    boundary = geometry.regions[number]
+    tell(f"tracing {boundary.name}", number / len(geometry.regions))
+    with stage("tracing", boundary.name):
+        return region_curves(geometry.index, boundary, number, samples)
 
 
 def drafted(
@@ -129,7 +136,8 @@ def _drafted(
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
         own = float(along[number]), chords, finest
         maker = RegionAssembler(geometry.index, region, vertices, points, *own)
-        parts.append(maker.assemble())
+        with stage("sheets", geometry.regions[number].name):
+            parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])
     return _joined(surface, parts, with_trims)
 

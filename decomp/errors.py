@@ -104,8 +104,8 @@ class GeometryError(DecompError):
     Attributes:
         sites: as given.
         place: (3,) where it is wrong, in the user's coordinates; None if that is not known.
-        stage: of the work in which it arose: `boundary`, `tracing`, `sheets`, `refining` or
-            `certificate`; empty if unknown.
+        stage: of the work in which it arose: `boundary`, `tracing`, `sheets`, `refining`,
+            `certificate` or `sampling`; empty if unknown.
         region: the region's name, empty if it is none's or unknown.
         tries: where several ways were tried, all of them; the error's text is the first one's.
     """
@@ -126,7 +126,11 @@ class GeometryError(DecompError):
 
     def advised(self, advice: str) -> GeometryError:
         """The same error with what to do about it at its end."""
-        result = GeometryError(f"{self}; {advice}", self.sites)
+        return self.retold(f"{self}; {advice}")
+
+    def retold(self, text: str, kind: type[GeometryError] | None = None) -> GeometryError:
+        """The same error with another text, and maybe of another kind."""
+        result = (kind or GeometryError)(text, self.sites)
         result.place, result.tries = self.place, self.tries
         result.stage, result.region = self.stage, self.region
         return result

@@ -20,12 +20,13 @@ from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.located import located
+from decomp.surfaces import surfaces_by
 from decomp.tetra.cells import OUTSIDE
 from decomp.tetra.check_names import resolved
 from decomp.tetra.child import TimeLimit
 from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.mesh import Group, TetMesh
+from decomp.tetra.mesh import FoundBy, Group, TetMesh
 from decomp.tetra.moved import moved_mesh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
@@ -34,6 +35,7 @@ from decomp.tetra.sizes import Wanted
 from decomp.tetra.tetrahedra import Filled, filled
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
+from decomp.ways import Method, checked_method
 
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
 """Seconds that TetWild may compute, in all and for each expected tetrahedron."""
@@ -54,6 +56,7 @@ def mesh(
     fields: Sequence[str] = (),
     timeout: float | None = None,
     progress: Progress | None = None,
+    method: Method = "traced",
 ) -> TetMesh:
     """Mesh a model.
 
@@ -74,6 +77,7 @@ def mesh(
         timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
             each expected tetrahedron where that is more, and four times as long by the clock.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
+        method: how the skeleton is found, as of `decomp.skeleton`.
 
     Raises:
         InputError: an option is of a wrong kind or out of its range, or the mesh would not fit
@@ -87,13 +91,14 @@ def mesh(
     volumes = one_of(volumes, ("cells", "regions"), "volumes")
     sheets = switch(sheets, "sheets")
     called(progress, "progress")
+    method = checked_method(method)
     seconds = None if timeout is None else positive(timeout, "timeout")
     asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     with geometry.frame(), located(geometry):
         made = _meshed(
-            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress
+            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress, method
         )
     return moved_mesh(made, geometry.offset)
 
@@ -108,9 +113,10 @@ def _meshed(
     asked: Sequence[str],
     seconds: float | None,
     progress: Progress | None,
+    method: Method,
 ) -> TetMesh:
     tell = progress or (lambda what, done: None)
-    given = _prepared(geometry, wanted, cells, _between(tell, 0.0, PREPARED))
+    given = _prepared(geometry, wanted, cells, method, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
     limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
@@ -139,18 +145,26 @@ def _meshed(
         _unprojected(given, points, triangles, tags, groups),
         lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
         source=geometry.model.source,
+        found_by=() if cells == "none" else _found_by(given),
     )
     return with_fields(geometry, result, asked, cell) if asked else result
 
 
-def _prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:
+def _prepared(
+    geometry: Geometry, wanted: Wanted, cells: Cells, method: Method, tell: Progress
+) -> Prepared:
     """What TetWild is given; where there is no skeleton for it, how to do without is said."""
     try:
-        return prepared(geometry, wanted, cells, tell)
+        return prepared(geometry, wanted, cells, surfaces_by(method), tell)
     except GeometryError as error:
         if cells == "none":
             raise
         raise error.advised("'--cells none' makes a mesh without cells") from error
+
+
+def _found_by(given: Prepared) -> tuple[FoundBy, ...]:
+    regions = given.surface.regions
+    return tuple(FoundBy(each.name, each.method.value, each.cause) for each in regions)
 
 
 def _elements(given: Prepared, made: Filled, order: int) -> tuple[Array, Ints, Ints]:

@@ -7,18 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.certificate import VOLUME, Certified, certified, explained, shortcomings
-from decomp.certificate.evidence import Evidence
+from decomp.certificate.certificate import VOLUME, Certified, explained, shortcomings
 from decomp.certificate.shortcoming import Shortcoming
-from decomp.complex.model import LineKind
 from decomp.complex.refine import refined
 from decomp.drafts import Draft
 from decomp.geometry import Geometry
-from decomp.medial.described import RegionDescription
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import RegionSkeleton, Skeleton
-from decomp.medial.trim_maker import owners
+from decomp.traced_region import TracedRegion
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array
 
@@ -111,52 +107,14 @@ class Whole:
         return radius
 
     def _region(self, number: int, radius: Array) -> tuple[RegionSkeleton, Certified]:
-        geometry, mesh = self._geometry, self.complex
-        boundary, curves = geometry.regions[number], self._curves[number]
-        drawn = RegionDescription(
-            region_queries(geometry.index, number),
-            curves,
-            self._draft.parts[number],
-            mesh,
-            radius,
-            self._number,
-            self._draft.sheet_patches[number],
-            self._draft.part_lines[number],
-        )
-        sheets, lines = drawn.sheets_and_lines()
-        reflexive = drawn.reflexive()
-        face_sides = self._draft.surface.face_sides(number, len(boundary.faces))
-        trims = self._draft.trims[number]
-        owner = owners(curves)
-        cells_of_faces = face_cells(mesh, boundary, face_sides, sheets, trims, owner)
-        cells = skeleton_cells(mesh, boundary, cells_of_faces, trims)
-        evidence = Evidence(
-            geometry.index,
+        draft, boundary = self._draft, self._geometry.regions[number]
+        traced = TracedRegion(
             number,
-            geometry.diagonal,
-            mesh,
-            radius,
-            sheets,
-            reflexive,
-            face_sides,
-            cells,
-            cells_of_faces,
+            self._curves[number],
+            draft.parts[number],
+            draft.sheet_patches[number],
+            draft.trims[number],
+            draft.part_lines[number],
+            draft.surface.face_sides(number, len(boundary.faces)),
         )
-        found = certified(evidence)
-        return (
-            RegionSkeleton(
-                boundary.name,
-                boundary,
-                sheets,
-                tuple(line for kind, line in lines if kind is LineKind.SEAM),
-                tuple(line for kind, line in lines if kind is LineKind.TRIM),
-                tuple(line for kind, line in lines if kind is LineKind.RIM),
-                drawn.junctions(),
-                reflexive,
-                face_sides,
-                cells,
-                cells_of_faces,
-                found.certificate,
-            ),
-            found,
-        )
+        return traced.finished(self._geometry, self.complex, radius, self._number)

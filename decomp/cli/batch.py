@@ -21,7 +21,7 @@ from decomp.files.targets import check_outputs, reason
 from decomp.plain import plain
 
 PASSED = (
-    *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
+    *("size", "layers", "circle", "order", "cells", "method", "volumes", "sheets", "fields"),
     *("ascii", "msh2", "timeout", "quiet", "outside", "outside_only"),
 )
 """Options that are handed on."""

@@ -68,6 +68,7 @@ def run(options: argparse.Namespace) -> None:
     """
     from decomp.cli.computing import reporting
     from decomp.formats import FORMATS
+    from decomp.surfaces import surfaces_by
     from decomp.tetra.check import check
 
     if options.mesh.suffix.lower().removeprefix(".") in FORMATS:
@@ -79,6 +80,7 @@ def run(options: argparse.Namespace) -> None:
             epsilon=options.epsilon,
             volume_error=options.volume_error,
             unprojected=options.unprojected,
+            surfaces=surfaces_by("auto"),
             progress=tell,
         )
     if options.json:

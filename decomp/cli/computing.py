@@ -31,15 +31,21 @@ def add_options(parser: argparse.ArgumentParser, files: str = FILES) -> None:
         help="largest distance of a triangle from its exact surface, relative to the model's "
         f"diagonal (default {TOLERANCE:g})",
     )
+    add_method(parser)
+    add_outside(parser)
+
+
+def add_method(parser: argparse.ArgumentParser | argparse._ArgumentGroup) -> None:
+    """The option that says how skeletons are found."""
     parser.add_argument(
         "--method",
         choices=("auto", "traced", "sampled"),
         default="traced",
         help="how the skeleton is found: traced curve by curve (default); sampled, as walls "
         "between points with different nearest sites, placed exactly, which many parts with "
-        "junctions close together do not hold; auto: traced, and sampled where that fails",
+        "junctions close together do not hold; auto: traced, and the regions "
+        "sampled where that fails",
     )
-    add_outside(parser)
 
 
 def computed(options: argparse.Namespace) -> Skeleton:

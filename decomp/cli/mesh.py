@@ -97,6 +97,8 @@ def _size_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _tag_options(parser: argparse.ArgumentParser) -> None:
+    from decomp.cli.computing import add_method
+
     group = parser.add_argument_group("physical groups")
     group.add_argument(
         "--cells",
@@ -105,6 +107,7 @@ def _tag_options(parser: argparse.ArgumentParser) -> None:
         help="skeleton: what the skeleton alone bounds (default); face: one cell for each face; "
         "none: regions, faces and interfaces alone, which needs no skeleton",
     )
+    add_method(group)
     group.add_argument(
         "--volumes",
         choices=("cells", "regions"),
@@ -255,6 +258,7 @@ def meshed(
             fields=options.fields,
             timeout=options.timeout,
             progress=stages,
+            method=options.method,
         )
         spent = stages.spent()
     exact = {each.name: each.volume for each in geometry.regions}

@@ -50,6 +50,27 @@ class Extracted:
     passed: Ints
     passing: Array
 
+    @classmethod
+    def none(cls) -> Extracted:
+        """The walls of a region that is not sampled."""
+        places, pairs = np.empty((0, 3)), np.empty((0, 2), dtype=np.int64)
+        numbers, no = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.bool_)
+        triangles = np.empty((0, 3), dtype=np.int64)
+        return cls(
+            places,
+            np.empty(0),
+            numbers,
+            [],
+            triangles,
+            pairs,
+            pairs,
+            numbers,
+            no,
+            no,
+            pairs,
+            places,
+        )
+
     def short_edges(self, least: float) -> Ints:
         """The edges (k, 2) that are no longer than a length."""
         edges = np.unique(np.sort(self.triangles[:, SIDES].reshape(-1, 2), axis=1), axis=0)

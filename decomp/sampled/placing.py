@@ -160,7 +160,10 @@ class Placer:
         if off > GOOD * self._size:
             return False
         flat = radius <= NOWHERE * self._size
-        return sheet or flat or float(self.normals.slant(*pair, point[None])[0]) <= TIGHT
+        if sheet or flat:
+            return True
+        on = self.normals.takes_over(*pair)
+        return on and float(self.normals.slant(*pair, point[None])[0]) <= TIGHT
 
     def place_on_normals(self, sites: tuple[int, int], points: Array) -> Placed:
         """Move points (k, 3) to where one of two sites takes over from the other."""

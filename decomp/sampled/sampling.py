@@ -13,46 +13,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from time import monotonic
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.attempts import first_cause, stage
 from decomp.certificate.certificate import VOLUME, Certified, explained, shortcomings
+from decomp.certificate.shortcoming import refusal
+from decomp.complex.model import Complex
 from decomp.complex.refine import refined
 from decomp.errors import GeometryError
 from decomp.fineness import fine_enough, finer
 from decomp.geometry import Geometry
-from decomp.medial.result import RegionSkeleton, Skeleton
+from decomp.medial.region_curves import RegionCurves
+from decomp.medial.result import Method, RegionSkeleton, Skeleton
+from decomp.sampled.beside import TetrahedraBoundary, with_traced
 from decomp.sampled.bisecting import Bisected
-from decomp.sampled.contracting import thin
-from decomp.sampled.extracted import CLOSE, ONE, Extracted, contracted
-from decomp.sampled.extraction import Extractor
+from decomp.sampled.drawing import smoothly_drawn
 from decomp.sampled.interior import Interior, interior
 from decomp.sampled.jumps import without_jump
-from decomp.sampled.labels import Labeller
-from decomp.sampled.loci import pinned_ends
-from decomp.sampled.refinement import Refiner
-from decomp.sampled.smoothing import unfolded
-from decomp.sampled.whole import Described, Drawn, RegionTools, drawn, tools_of
+from decomp.sampled.region_walls import region_walls
+from decomp.sampled.whole import Described, Drawn, RegionTools, tools_of
 from decomp.tetra.cells import site_owners
 from decomp.tetra.child import MeshingError, TimeLimit
-from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, Ints, norm
+from decomp.traced_region import TracedRegion
 
-FLOORS = (12.0, 18.0, 27.0, 40.0, 60.0)
+FLOORS = (12.0, 18.0, 27.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
 where the walls are close to the boundary."""
 COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
 EPSILON = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-AGAIN = 7
-"""So often tetrahedra are refined around walls that cannot be placed,"""
-FINEST = 0.01
-"""to this part of the floor at the most."""
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 LOOSEST = 8.0
@@ -60,12 +54,34 @@ LOOSEST = 8.0
 volumes, are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
-UNFOLDINGS = 4
-"""So often walls are smoothed, and what is still folded then is contracted."""
-LIMIT, FILLING = 60.0, 300.0
-"""Seconds after which no further try is begun, and that TetWild may compute in each."""
+FILLING = 60.0
+"""Seconds that TetWild may compute in each try."""
 
 Progress = Callable[[str, float], None]
+Curves = Mapping[int, RegionCurves]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampled:
+    """A skeleton, and what it was made of.
+
+    Args:
+        skeleton: it.
+        given: what the tetrahedra conform to.
+        mesh: the tetrahedra.
+        tools: of each region.
+        shown: boundary and walls before they were refined.
+        curves: of the regions that are traced.
+        along: chord tolerance along these, in model units.
+    """
+
+    skeleton: Skeleton
+    given: Interior
+    mesh: Bisected
+    tools: Sequence[RegionTools]
+    shown: Drawn
+    curves: Curves
+    along: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,80 +93,126 @@ class _Try:
 
 
 def sampled_skeleton(
-    geometry: Geometry, tolerance: float, tell: Progress, limit: float = LIMIT
-) -> Skeleton:
+    geometry: Geometry, tolerance: float, tell: Progress, curves: Curves | None = None
+) -> Sampled:
     """The skeleton as the walls between labels.
 
     Args:
         geometry: of the model.
         tolerance: chord tolerance, relative to the model's diagonal.
         tell: of the progress.
-        limit: seconds after which no further try is begun.
+        curves: of regions that are not sampled, as their curves are traced already.
 
     Raises:
-        GeometryError: no try holds its certificate; says what the first and the last one lacked.
+        GeometryError: no try holds its certificate, or a traced region's sheets cannot be made;
+            it knows the region then.
     """
-    begun = monotonic()
-    reasons: list[str] = []
+    reasons: list[tuple[str, GeometryError]] = []
     fineness = float(fine_enough(geometry, tolerance, SHARE).min())
     for number, floor in enumerate(FLOORS):
-        if reasons and monotonic() - begun > limit:
-            break
         share = number / len(FLOORS)
         tell(f"sampling{'' if not number else ' more finely'}", share)
+        attempt = _Attempt(geometry, tolerance, curves or {}, partial(_told, tell, share))
         try:
-            found = _attempt(geometry, tolerance, fineness, geometry.diagonal / floor, tell, share)
-        except (GeometryError, MeshingError) as error:
-            reasons.append(str(error))
-            continue
-        if found.skeleton is not None:
-            return found.skeleton
-        reasons.append("; ".join(found.failures))
+            with stage("sampling"):
+                return attempt.result(fineness, geometry.diagonal / floor)
+        except MeshingError as error:
+            reasons.append((f"edges of 1/{floor:g} of the size", GeometryError(str(error))))
+        except TracedRegionError:
+            raise
+        except GeometryError as error:
+            reasons.append((f"edges of 1/{floor:g} of the size", error))
+    cause = first_cause(reasons)
     tried = f"{len(reasons)} tr{'y' if len(reasons) == 1 else 'ies'}"
-    last = f"; the last: {reasons[-1]}" if reasons[-1] != reasons[0] else ""
-    raise GeometryError(f"no sampled skeleton holds in {tried}; the first: {reasons[0]}{last}")
+    raise cause.retold(f"no sampled skeleton holds in {tried}; the first: {cause}")
 
 
-def _attempt(
-    geometry: Geometry,
-    tolerance: float,
-    fineness: float,
-    floor: float,
-    tell: Progress,
-    share: float,
-) -> _Try:
-    size = COARSE * floor
-    given = interior(
-        geometry, size, EPSILON * size, TimeLimit.of_work(FILLING), lambda what: tell(what, share)
-    )
-    owner = site_owners(geometry.sites, list(geometry.regions))
-    tools = [tools_of(geometry, number, owner) for number in range(len(geometry.regions))]
-    tell("labelling", share)
-    mesh = Bisected(given)
-    extracted = _walls(geometry, given, mesh, tools, floor, SHARE * fineness * geometry.diagonal)
-    lost = sum(int(found.lost.sum()) for found in extracted)
-    if lost:
-        at = next(found.points[found.lost][0] for found in extracted if found.lost.any())
-        raise GeometryError(f"{lost} points of walls have no place, one near {{at}}", at=at)
-    tell("triangulating sheets", share)
-    shown = _smooth(geometry, given, mesh, tools, extracted, floor)
-    result = _Try(None, ["nothing was tried"])
-    for left in reversed(range(FINENESSES)):
-        tell("refining", share)
-        made, kept = refined(shown.complex, fineness * geometry.diagonal, lenient=True)
-        tell("measuring", share)
-        described = Described(geometry, given, tools, shown, made, kept)
-        regions = [described.region(number) for number in range(len(geometry.regions))]
-        result = _judged(geometry, tolerance, described, regions)
-        figures = [found.certificate for _, found in regions]
-        short = {name for each in figures for name in shortcomings(each, tolerance)}
-        if not left or not short or not short <= {"volume_error", "chord_error"}:
-            break
-        excess = max(
-            max(each.volume_error / VOLUME, each.chord_error / tolerance) for each in figures
-        )
-        fineness = float(finer(np.array([fineness]), np.array([excess]))[0])
-    return result
+def _told(tell: Progress, done: float, what: str) -> None:
+    tell(what, done)
+
+
+class TracedRegionError(GeometryError):
+    """A region that was traced cannot be finished; `region` tells which."""
+
+
+class _Attempt:
+    """One try."""
+
+    def __init__(
+        self, geometry: Geometry, tolerance: float, curves: Curves, tell: Callable[[str], None]
+    ) -> None:
+        self._geometry, self._tolerance, self._curves = geometry, tolerance, curves
+        self._tell = tell
+
+    def result(self, fineness: float, floor: float) -> Sampled:
+        """The skeleton.
+
+        Args:
+            fineness: chord tolerance to begin with, relative to the diagonal.
+            floor: edges at walls are no longer.
+        """
+        geometry = self._geometry
+        size = COARSE * floor
+        given = interior(geometry, size, EPSILON * size, TimeLimit.of_work(FILLING), self._tell)
+        owner = site_owners(geometry.sites, list(geometry.regions))
+        tools = [
+            tools_of(geometry, number, owner, number not in self._curves)
+            for number in range(len(geometry.regions))
+        ]
+        self._tell("labelling")
+        mesh = Bisected(given)
+        along = SHARE * fineness * geometry.diagonal
+        feet = [foot for own in self._curves.values() for foot in own.turning_feet()]
+        TetrahedraBoundary(geometry, given, mesh).put_nodes(feet)
+        extracted = region_walls(geometry, given, mesh, tools, floor, along)
+        lost = sum(int(found.lost.sum()) for found in extracted)
+        if lost:
+            at = next(found.points[found.lost][0] for found in extracted if found.lost.any())
+            raise GeometryError(f"{lost} points of walls have no place, one near {{at}}", at=at)
+        self._tell("triangulating sheets")
+        shown = smoothly_drawn(geometry, given, mesh, tools, extracted, floor)
+        whole, traced = self._with_traced(given, mesh, shown, along)
+        made = self._refined(given, tools, shown, whole, traced, fineness)
+        if made.skeleton is None:
+            raise GeometryError("; ".join(made.failures))
+        return Sampled(made.skeleton, given, mesh, tools, shown, self._curves, along)
+
+    def _with_traced(
+        self, given: Interior, mesh: Bisected, shown: Drawn, along: float
+    ) -> tuple[Complex, dict[int, TracedRegion]]:
+        try:
+            return with_traced(self._geometry, given, mesh, self._curves, shown.complex, along)
+        except GeometryError as error:
+            raise error.retold(str(error), TracedRegionError) from error
+
+    def _refined(
+        self,
+        given: Interior,
+        tools: Sequence[RegionTools],
+        shown: Drawn,
+        whole: Complex,
+        traced: dict[int, TracedRegion],
+        fineness: float,
+    ) -> _Try:
+        """Refine and measure, more finely as long as volumes ask for it."""
+        geometry, tolerance = self._geometry, self._tolerance
+        result = _Try(None, ["nothing was tried"])
+        for left in reversed(range(FINENESSES)):
+            self._tell("refining")
+            made, kept = refined(whole, fineness * geometry.diagonal, lenient=True)
+            self._tell("measuring")
+            described = Described(geometry, given, tools, shown, made, kept, traced)
+            regions = [described.region(number) for number in range(len(geometry.regions))]
+            result = _judged(geometry, tolerance, described, regions)
+            figures = [found.certificate for _, found in regions]
+            short = {name for each in figures for name in shortcomings(each, tolerance)}
+            if not left or not short or not short <= {"volume_error", "chord_error"}:
+                break
+            excess = max(
+                max(each.volume_error / VOLUME, each.chord_error / tolerance) for each in figures
+            )
+            fineness = float(finer(np.array([fineness]), np.array([excess]))[0])
+        return result
 
 
 def _judged(
@@ -173,7 +235,14 @@ def _judged(
     stated, volume = times * tolerance, times * VOLUME
     failures = []
     for region, found in regions:
-        lines = [str(line) for line in explained(found, stated, geometry.sites, volume)]
+        wrong = explained(found, stated, geometry.sites, volume)
+        if region.method is Method.TRACED:
+            if wrong:
+                error = refusal(wrong)
+                error.region = region.name
+                raise error.retold(str(error), TracedRegionError)
+            continue
+        lines = [str(line) for line in wrong]
         if not lines:
             mesh, radius = described.mesh, described.radius
             lines = without_jump(mesh, radius, region, geometry.sites)
@@ -181,131 +250,6 @@ def _judged(
     if failures:
         return _Try(None, failures)
     return _Try(_skeleton(geometry, stated, described, [region for region, _ in regions]), [])
-
-
-def _smooth(
-    geometry: Geometry,
-    given: Interior,
-    mesh: Bisected,
-    tools: list[RegionTools],
-    extracted: list[Extracted],
-    floor: float,
-) -> Drawn:
-    """The complex, smoothed; triangles that stay folded are contracted."""
-    boundary = len(given.plan.complex.patches)
-    extracted = [
-        pinned_ends(tool.incidence, tool.loci, found)
-        for tool, found in zip(tools, extracted, strict=True)
-    ]
-    near: Array | None = None
-    for left in reversed(range(UNFOLDINGS)):
-        shown = drawn(geometry, given, mesh, tools, extracted, floor / 2)
-        smooth, folded = unfolded(
-            shown.complex, boundary, _pinned(shown, extracted), _at(shown, near)
-        )
-        if not left or not len(folded):
-            break
-        bad = {tuple(row) for row in np.sort(folded, axis=1).tolist()}
-        fewer = []
-        for found, vertices, tool in zip(extracted, shown.vertices, tools, strict=True):
-            moved = replace(found, points=smooth.points[vertices])
-            corners = np.sort(vertices[found.triangles], axis=1).tolist()
-            wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
-            wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
-            least = ONE * geometry.diagonal
-            fewer.append(
-                contracted(
-                    moved, wanted, moved.short_edges(CLOSE * geometry.diagonal), least, tool.placer
-                )
-            )
-        extracted = fewer
-        near = smooth.points[np.unique(folded)]
-    return replace(shown, complex=smooth)
-
-
-def _at(shown: Drawn, places: Array | None) -> Ints | None:
-    """The points of a complex that are nearest to some places (k, 3)."""
-    if places is None:
-        return None
-    return np.unique(cKDTree(shown.complex.points).query(places)[1])
-
-
-def _pinned(shown: Drawn, extracted: list[Extracted]) -> Ints:
-    """The points that stay where they are."""
-    pairs = zip(shown.vertices, extracted, strict=True)
-    return np.concatenate([vertices[found.pinned] for vertices, found in pairs])
-
-
-def _walls(
-    geometry: Geometry,
-    given: Interior,
-    mesh: Bisected,
-    tools: list[RegionTools],
-    floor: float,
-    chord: float,
-) -> list[Extracted]:
-    """The walls of all regions; tetrahedra around those that cannot be placed are refined."""
-    labellers, known = [], []
-    for number, tool in enumerate(tools):
-        queries = region_queries(geometry.index, number)
-        face_of_patch = np.full(len(given.plan.complex.patches), -1, dtype=np.int64)
-        sides = given.surface.face_sides(number, len(geometry.regions[number].faces))
-        for face, own in enumerate(sides):
-            face_of_patch[[patch for patch, _ in own]] = face
-        labeller = Labeller(queries, tool.incidence, face_of_patch)
-        refiner = Refiner(queries, labeller, tool.placer, number)
-        labellers.append((labeller, refiner))
-        known.append(labeller.labels(mesh, None))
-    found: list[Extracted] = []
-    for left in reversed(range(AGAIN)):
-        for number, (labeller, refiner) in enumerate(labellers):
-            known[number] = refiner.refined(
-                mesh, labeller.labels(mesh, known[number]), floor, chord
-            )
-        found = []
-        for number, (labeller, _) in enumerate(labellers):
-            known[number] = labeller.labels(mesh, known[number])
-            tool = tools[number]
-            extractor = Extractor(
-                region_queries(geometry.index, number),
-                tool.placer,
-                tool.owner,
-                geometry.regions[number].diagonal,
-            )
-            found.append(extractor.extracted(mesh, known[number], number))
-        if not left or not _refined_where_lost(mesh, found, floor):
-            break
-    return found
-
-
-def _refined_where_lost(mesh: Bisected, found: list[Extracted], floor: float) -> bool:
-    """Refine the tetrahedra in which walls could not be placed; whether there were any."""
-    wanted = np.zeros(len(mesh.tets), dtype=np.bool_)
-    for number, walls in enumerate(found):
-        rows = np.flatnonzero(mesh.region == number)
-        if not len(walls.passed):
-            wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
-    corners = mesh.points[mesh.tets]
-    wanted &= norm(corners - corners[:, [1, 2, 3, 0]]).max(axis=1) > FINEST * floor
-    mesh.shorten(wanted)
-    return bool(wanted.any()) | _cut_through(mesh, found)
-
-
-def _cut_through(mesh: Bisected, found: list[Extracted]) -> bool:
-    """Put nodes into zones that edges lead through; whether there were any."""
-    edges, which = mesh.edges()
-    number = {(a, b): k for k, (a, b) in enumerate(edges.tolist())}
-    chosen = np.zeros(len(edges), dtype=np.bool_)
-    at: Array = mesh.points[edges].mean(axis=1)
-    for walls in found:
-        for pair, point in zip(np.sort(walls.passed, axis=1).tolist(), walls.passing, strict=True):
-            k = number.get((pair[0], pair[1]))
-            if k is not None:
-                chosen[k], at[k] = True, point
-    chosen &= ~mesh.boundary_edges(edges)
-    if chosen.any():
-        mesh.halve(edges, which, chosen, at)
-    return bool(chosen.any())
 
 
 def _skeleton(

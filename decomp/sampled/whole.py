@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,18 +34,20 @@ from decomp.sampled.loci import Run, runs, welded
 from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
+from decomp.traced_region import TracedRegion
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints, cross, norm
 
 
 @dataclass(frozen=True, eq=False)
 class RegionTools:
-    """What the walls of one region are made with."""
+    """What the walls of one region are made with, if it is sampled and not traced."""
 
     incidence: Incidence
     placer: Placer
     owner: dict[int, int]
     loci: tuple[ReflexivePart, ...]
+    sampled: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +124,19 @@ def drawn(
         loci.append(tuple(zip(found_runs, chains_of, strict=True)))
     shown = _with_lines(given, tools, every, patches, walls, first, vertices)
     return replace(shown, loci=tuple(loci), complex=_with_loci(shown.complex, loci))
+
+
+def without_trims(given: Interior, tools: Sequence[RegionTools], shown: Drawn) -> Drawn:
+    """The same without trim surfaces; lines are those along which sheets and faces meet."""
+    patches = list(shown.complex.patches[: len(given.plan.complex.patches)])
+    walls, first = [], []
+    for made, start in zip(shown.walls, shown.first, strict=True):
+        first.append(len(patches))
+        patches += shown.complex.patches[start : start + len(made.sheets)]
+        walls.append(replace(made, trims=(), trim_patches=()))
+    points, vertices = shown.complex.points, list(shown.vertices)
+    left = _with_lines(given, tools, points, patches, walls, first, vertices)
+    return replace(left, loci=shown.loci, complex=_with_loci(left.complex, shown.loci))
 
 
 def _with_loci(given: Complex, loci: Sequence[Sequence[tuple[Run, Ints]]]) -> Complex:
@@ -218,8 +233,10 @@ class Described:
         shown: Drawn,
         mesh: Complex,
         number: Ints,
+        traced: Mapping[int, TracedRegion],
     ) -> None:
         """Args: `number` tells the new number of each of `shown`'s points in `mesh`."""
+        self._traced = traced
         self._geometry, self._given, self._tools = geometry, given, tools
         self._shown, self.mesh, self._number = shown, mesh, number
         self.radius = self._radius()
@@ -237,6 +254,8 @@ class Described:
     def region(self, number: int) -> tuple[RegionSkeleton, Certified]:
         """The skeleton of one region, with its certificate."""
         geometry, mesh = self._geometry, self.mesh
+        if number in self._traced:
+            return self._traced[number].finished(geometry, mesh, self.radius, self._number)
         boundary = geometry.regions[number]
         made, first = self._shown.walls[number], self._shown.first[number]
         sheets = tuple(self._sheet(number, first + k, sites) for k, sites in enumerate(made.sheets))
@@ -350,12 +369,12 @@ class Described:
         )
 
 
-def tools_of(geometry: Geometry, number: int, owner: Ints) -> RegionTools:
-    """The tools of a region."""
+def tools_of(geometry: Geometry, number: int, owner: Ints, sampled: bool) -> RegionTools:
+    """The tools of a region, which is sampled or not."""
     queries = region_queries(geometry.index, number)
     incidence = Incidence(geometry.regions[number], geometry.sites, number)
     own = {
         site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
-    loci = tuple(reflexive_parts(geometry.index, incidence))
-    return RegionTools(incidence, Placer(incidence, queries), own, loci)
+    loci = tuple(reflexive_parts(geometry.index, incidence)) if sampled else ()
+    return RegionTools(incidence, Placer(incidence, queries), own, loci, sampled)

@@ -30,6 +30,7 @@ from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
+from decomp.tetra.surface import SurfaceMaker, Surfaces
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
 
@@ -74,6 +75,7 @@ def check(
     epsilon: float = EPSILON,
     volume_error: float = VOLUME_ERROR,
     unprojected: int = 0,
+    surfaces: Surfaces = SurfaceMaker,
     progress: Callable[[str, float], None] | None = None,
 ) -> Checked:
     """Compare a mesh with its model.
@@ -86,6 +88,8 @@ def check(
             leave out at curved faces.
         unprojected: so many nodes of faces, interfaces and sheets may be off them (the report
             of `decomp.mesh` counts them).
+        surfaces: makes the skeleton that the mesh's cells are held against; by default it is
+            traced.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
 
     Raises:
@@ -104,7 +108,7 @@ def check(
     with geometry.frame():
         local = replace(read, points=read.points - geometry.offset)
         limits = Limits(epsilon, volume_error, unprojected, _rounding(read.points))
-        return _checked(geometry.local, local, limits, tell)
+        return _checked(geometry.local, local, limits, surfaces, tell)
 
 
 @dataclass(frozen=True)
@@ -127,7 +131,11 @@ def _rounding(points: Array) -> float:
 
 
 def _checked(
-    geometry: Geometry, read: ReadMesh, limits: Limits, tell: Callable[[str, float], None]
+    geometry: Geometry,
+    read: ReadMesh,
+    limits: Limits,
+    surfaces: Surfaces,
+    tell: Callable[[str, float], None],
 ) -> Checked:
     epsilon = limits.epsilon
     names = resolved(read.names, geometry)
@@ -138,7 +146,7 @@ def _checked(
         given = {*names.cells.values(), *(n for s in names.sheets.values() for n in sides(s))}
         tolerance = FINENESS * epsilon * min(region.diagonal for region in geometry.regions)
         cells = cells_named(
-            geometry, given, tolerance, lambda what, done: tell(what, 0.2 + 0.6 * done)
+            geometry, given, tolerance, surfaces, lambda what, done: tell(what, 0.2 + 0.6 * done)
         )
         elements = Elements(cells.surface.complex)
         sheets = known_sheets(cells.surface, elements, cells.name_of_site)

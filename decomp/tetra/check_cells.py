@@ -12,7 +12,7 @@ from decomp.geometry import Geometry
 from decomp.medial.result import Cell
 from decomp.sites.site import Site, SiteKind
 from decomp.tetra.check_names import face_names
-from decomp.tetra.surface import MeshSurface, SurfaceMaker
+from decomp.tetra.surface import MeshSurface, Surfaces
 from decomp.vectors import Array, Ints
 
 NONE = -1
@@ -63,7 +63,11 @@ class KnownCells:
 
 
 def cells_named(
-    geometry: Geometry, names: set[str], tolerance: float, tell: Callable[[str, float], None]
+    geometry: Geometry,
+    names: set[str],
+    tolerance: float,
+    surfaces: Surfaces,
+    tell: Callable[[str, float], None],
 ) -> KnownCells:
     """The skeleton's cells or its face cells, whichever more of some names are of.
 
@@ -71,12 +75,13 @@ def cells_named(
         geometry: of the model.
         names: of cells.
         tolerance: chord tolerance of the sheets, in model units.
+        surfaces: makes the skeletons.
         tell: is told what is being done, and which part (0 to 1) is behind.
 
     Raises:
         GeometryError: the skeleton cannot be computed.
     """
-    maker = SurfaceMaker(geometry, tell)
+    maker = surfaces(geometry, tell)
     whole = known_cells(maker.made(tolerance, False))
     if names <= set(whole.names) or not names & set(face_names(geometry)):
         return whole

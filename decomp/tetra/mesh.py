@@ -61,6 +61,21 @@ class Group:
         return 3 if self.kind in (GroupKind.CELL, GroupKind.REGION) else 2
 
 
+@dataclass(frozen=True)
+class FoundBy:
+    """How the skeleton of a region was found.
+
+    Args:
+        region: its name.
+        method: `traced` or `sampled`.
+        cause: why it was not traced, where that was tried first.
+    """
+
+    region: str
+    method: str
+    cause: str | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class TetMesh:
     """A conforming mesh. Every tetrahedron and every tagged triangle is in exactly one group.
@@ -81,6 +96,7 @@ class TetMesh:
         cell_data: (m,) values of tetrahedra by name.
         lengths: (n,) edge length wanted at each node; None if unknown.
         source: the file that the model was read from, if any; no output may replace it.
+        found_by: how the skeleton of each region was found; none without cells.
     """
 
     name: str
@@ -95,6 +111,7 @@ class TetMesh:
     cell_data: Mapping[str, Ints] = field(default_factory=dict)
     lengths: Array | None = None
     source: Path | None = None
+    found_by: tuple[FoundBy, ...] = ()
 
     @property
     def order(self) -> int:

@@ -21,7 +21,7 @@ from decomp.tetra.memory import check_memory
 from decomp.tetra.shortening import Lengths, lengths_asked
 from decomp.tetra.sizes import Wanted, Wishes, region_sizes, wishes
 from decomp.tetra.soup import soup
-from decomp.tetra.surface import MeshSurface, SurfaceMaker
+from decomp.tetra.surface import MeshSurface, Surfaces
 from decomp.vectors import Array, Ints
 
 CHORD, COARSEST = 0.4, 0.65
@@ -73,13 +73,16 @@ class Prepared:
     chords: Wishes
 
 
-def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:
+def prepared(
+    geometry: Geometry, wanted: Wanted, cells: Cells, surfaces: Surfaces, tell: Progress
+) -> Prepared:
     """Compute the skeleton, unless there are to be no cells, and choose sizes and epsilon.
 
     Args:
         geometry: of the model.
         wanted: by the user.
         cells: which there are to be.
+        surfaces: makes the skeletons.
         tell: of the progress.
 
     Raises:
@@ -88,7 +91,7 @@ def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -
     """
     sizes = region_sizes(geometry, wanted)
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
-    make = _maker(geometry, cells, sizes, tell)
+    make = _maker(geometry, cells, sizes, surfaces, tell)
     longest = float(sizes.min())
     epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
     surface = make(CHORD * epsilon)
@@ -122,13 +125,13 @@ def prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -
 
 
 def _maker(
-    geometry: Geometry, cells: Cells, sizes: Array, tell: Progress
+    geometry: Geometry, cells: Cells, sizes: Array, surfaces: Surfaces, tell: Progress
 ) -> Callable[[float], MeshSurface]:
     """What makes a complex for a chord tolerance, in model units."""
     if cells == "none":
         tell("triangulating the boundary", 0.0)
         return partial(boundary_surface, geometry, sizes)
-    return partial(SurfaceMaker(geometry, tell).made, by_face=cells == "face")
+    return partial(surfaces(geometry, tell).made, by_face=cells == "face")
 
 
 def _fine_enough(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from decomp.csg.model import Ignored
+from decomp.medial.result import Method
 from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.tetra.quality import dihedral_angles, inverted, radius_ratios, volumes
@@ -31,6 +32,8 @@ class Volume:
         exact: the region's, or that of the cell inside the skeleton's complex; None if unknown.
         maxh: what the input asks for.
         edges: of a region; None for cells.
+        method, cause: how a region's skeleton was found, and why it was not traced; None for cells
+            and without them.
     """
 
     name: str
@@ -41,6 +44,8 @@ class Volume:
     exact: float | None
     maxh: float | None
     edges: EdgeLengths | None = None
+    method: str | None = None
+    cause: str | None = None
 
     @property
     def error(self) -> float | None:
@@ -192,7 +197,10 @@ def _with_edges(mesh: TetMesh, region: Volume) -> Volume:
     groups = [g for g in mesh.groups if g.dimension == 3 and region.name in g.regions]
     own = mesh.tets[np.isin(mesh.tet_tags, [group.tag for group in groups])]
     edges = edge_lengths(mesh.points, own, groups[0].length, mesh.lengths)
-    return replace(region, edges=edges)
+    found = next((each for each in mesh.found_by if each.region == region.name), None)
+    if found is None:
+        return replace(region, edges=edges)
+    return replace(region, edges=edges, method=found.method, cause=found.cause)
 
 
 def _joined(cells: Sequence[Volume], exact: Mapping[str, float]) -> list[Volume]:
@@ -257,6 +265,9 @@ def as_text(found: Report) -> list[str]:
         )
         if region.edges is not None:
             lines.append(f"    {edges_text(region.edges)}")
+        if region.method == Method.SAMPLED.value:
+            why = "" if region.cause is None else f": tracing failed, as {region.cause}"
+            lines.append(f"    skeleton sampled{why}")
     if found.cells:
         spread = _spread([cell.tets for cell in found.cells])
         errors = [abs(cell.error) for cell in found.cells if cell.error is not None]

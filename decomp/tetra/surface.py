@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from decomp.attempts import Way, first_of
 from decomp.boundary.topology import RegionBoundary
@@ -22,7 +23,7 @@ from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.medial.component_votes import MissingCurveError
 from decomp.medial.region_curves import RegionCurves
-from decomp.medial.result import Cell, Sheet, TrimSurface
+from decomp.medial.result import Cell, Method, Sheet, TrimSurface
 from decomp.medial.trim_maker import owners
 from decomp.sites.site import Site
 from decomp.tetra.content import contents
@@ -45,6 +46,7 @@ class RegionSurface:
         face_sides: for each face its patches, +1 where their normals point out of the region.
         sheets: the sites of each sheet by its patch; its normal points from the first's side.
         cells: that the mesh is to have.
+        method, cause: how its skeleton was found, and why it was not traced.
     """
 
     name: str
@@ -52,6 +54,8 @@ class RegionSurface:
     face_sides: tuple[tuple[tuple[int, int], ...], ...]
     sheets: dict[int, tuple[int, int]]
     cells: tuple[Cell, ...]
+    method: Method = Method.TRACED
+    cause: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +75,25 @@ class MeshSurface:
     tolerance: float
     regions: tuple[RegionSurface, ...]
     has_skeleton: bool = True
+
+
+class CellSurfaces(Protocol):
+    """Makes complexes of one model, of any fineness, with its skeleton."""
+
+    def made(self, tolerance: float, by_face: bool) -> MeshSurface:
+        """A complex.
+
+        Args:
+            tolerance: chord tolerance, in model units; a finer one is taken if that fails.
+            by_face: whether face cells are wanted, parted by trim surfaces.
+
+        Raises:
+            GeometryError: there is none, or its cells are not closed or do not fill their region.
+        """
+
+
+Surfaces = Callable[[Geometry, Callable[[str, float], None]], CellSurfaces]
+"""What makes them for a geometry, telling of the progress."""
 
 
 def coarsest(make: Callable[[float], MeshSurface], tolerance: float) -> MeshSurface:
@@ -150,22 +173,32 @@ def _assembled(
         sides = draft.surface.face_sides(number, len(boundary.faces))
         made = zip(draft.sheet_patches[number], draft.parts[number].sheets, strict=True)
         sheets = {patch: sheet.sites for patch, sheet in made}
-        cells = _cells(mesh, curves[number], sides, sheets, draft.trims[number], by_face)
+        owner, trims = owners(curves[number]), draft.trims[number]
+        cells = cells_of(mesh, boundary, sides, sheets, trims, owner, by_face)
         regions.append(RegionSurface(boundary.name, boundary, sides, sheets, cells))
     return checked(MeshSurface(geometry.sites, mesh, tolerance, tuple(regions)))
 
 
-def _cells(
+def cells_of(
     mesh: Complex,
-    curves: RegionCurves,
+    boundary: RegionBoundary,
     face_sides: tuple[tuple[tuple[int, int], ...], ...],
     sheets: dict[int, tuple[int, int]],
     trims: Sequence[TrimSurface],
+    owner: dict[int, int],
     by_face: bool,
 ) -> tuple[Cell, ...]:
-    """The cells of a region; their volumes are measured later."""
-    boundary = curves.incidence.boundary
-    owner = owners(curves)
+    """The cells of a region; their volumes are measured later.
+
+    Args:
+        mesh: boundaries and sheets; if `by_face`, trim surfaces too.
+        boundary: of the region.
+        face_sides: for each face its patches, +1 where their normals point out of the region.
+        sheets: the sites of each sheet by its patch.
+        trims: which faces' space each trim surface parts.
+        owner: the face that owns each site.
+        by_face: whether cells are those of single faces.
+    """
     parting = [
         Sheet(sites, None, patch, float("nan"), (0.0, 0.0)) for patch, sites in sheets.items()
     ]

@@ -155,13 +155,13 @@ def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
     monkeypatch.setattr(sampling, "FLOORS", (12.0,))
     rod = decomp.Geometry(decomp.Cylinder((0, 0, 0), (0, 0, 6), 1))
     if held:
-        made = sampled_skeleton(rod, 5e-4, lambda what, done: None)
+        made = sampled_skeleton(rod, 5e-4, lambda what, done: None).skeleton
         stated = made.tolerance / made.diagonal
         assert 5e-4 < stated <= sampling.LOOSEST * 5e-4
         assert made.regions[0].certificate.chord_error <= stated
     else:
         with pytest.raises(GeometryError, match=r"is .*, allowed"):
-            sampled_skeleton(rod, 5e-4, lambda what, done: None)
+            _ = sampled_skeleton(rod, 5e-4, lambda what, done: None).skeleton
 
 
 def test_junctions_of_a_block_are_where_they_must_be() -> None:
