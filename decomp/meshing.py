@@ -27,10 +27,12 @@ from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.mesh import Group, TetMesh
 from decomp.tetra.moved import moved_mesh
+from decomp.tetra.nearer import Nearer, brought_near
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
+from decomp.tetra.sweeping import far_groups, swept
 from decomp.tetra.tetrahedra import Filled, filled
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
@@ -92,9 +94,12 @@ def mesh(
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     with geometry.frame(), located(geometry):
-        made = _meshed(
-            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress
-        )
+        options = order, cells, volumes, sheets
+        near = brought_near(geometry.local, wanted) if order == 1 and cells == "none" else None
+        if near is None:
+            made = _meshed(geometry.local, wanted, *options, asked, seconds, progress)
+        else:
+            made = _meshed_near(geometry.local, near, *options, asked, seconds, progress)
     return moved_mesh(made, geometry.offset)
 
 
@@ -141,6 +146,26 @@ def _meshed(
         source=geometry.model.source,
     )
     return with_fields(geometry, result, asked, cell) if asked else result
+
+
+def _meshed_near(
+    geometry: Geometry,
+    near: Nearer,
+    order: int,
+    cells: Cells,
+    volumes: Literal["cells", "regions"],
+    sheets: bool,
+    asked: Sequence[str],
+    seconds: float | None,
+    progress: Progress | None,
+) -> TetMesh:
+    """Mesh a model with its end brought near, and put back what is before it."""
+    options = order, cells, volumes, sheets
+    made = _meshed(near.geometry.local, near.wanted, *options, (), seconds, progress)
+    made = moved_mesh(made, near.geometry.offset)
+    groups = far_groups(made.groups, [region.volume for region in geometry.regions], near)
+    result = swept(made, near, groups)
+    return with_fields(geometry, result, asked, result.tet_tags) if asked else result
 
 
 def _prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:
