@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
@@ -28,10 +29,12 @@ from decomp.tetra.fields import checked_fields, with_fields
 from decomp.tetra.groups import cell_groups, region_groups, surface_groups
 from decomp.tetra.mesh import FoundBy, Group, TetMesh
 from decomp.tetra.moved import moved_mesh
+from decomp.tetra.nearer import Nearer, brought_near
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
+from decomp.tetra.sweeping import far_groups, swept
 from decomp.tetra.tetrahedra import Filled, filled
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
@@ -97,39 +100,46 @@ def mesh(
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     with geometry.frame(), located(geometry):
-        made = _meshed(
-            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress, method
-        )
+        options = _Options(order, cells, volumes, sheets, seconds, method)
+        tell = progress or (lambda what, done: None)
+        near = brought_near(geometry.local, wanted) if order == 1 and cells == "none" else None
+        if near is None:
+            made = _meshed(geometry.local, wanted, options, asked, tell)
+        else:
+            made = _meshed_near(geometry.local, near, options, asked, tell)
     return moved_mesh(made, geometry.offset)
 
 
+@dataclass(frozen=True)
+class _Options:
+    """What `mesh` is asked for beside lengths and fields; all have been checked."""
+
+    order: int
+    cells: Cells
+    volumes: Literal["cells", "regions"]
+    sheets: bool
+    seconds: float | None
+    method: Method
+
+
 def _meshed(
-    geometry: Geometry,
-    wanted: Wanted,
-    order: int,
-    cells: Cells,
-    volumes: Literal["cells", "regions"],
-    sheets: bool,
-    asked: Sequence[str],
-    seconds: float | None,
-    progress: Progress | None,
-    method: Method,
+    geometry: Geometry, wanted: Wanted, options: _Options, asked: Sequence[str], tell: Progress
 ) -> TetMesh:
-    tell = progress or (lambda what, done: None)
-    given = _prepared(geometry, wanted, cells, method, _between(tell, 0.0, PREPARED))
+    given = _prepared(geometry, wanted, options, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
+    seconds = options.seconds
     limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
     made = filled(given, limit, _between(tell, PREPARED, FILLED))
-    if order == 2:
+    if options.order == 2:
         tell("curving", FILLED)
-    points, tets, triangles = _elements(given, made, order)
+    points, tets, triangles = _elements(given, made, options.order)
     tagged, part = made.fit.tagged, made.fit.part
     groups, tags = surface_groups(
-        geometry, given.surface, given.known, given.plan, tagged, sheets, given.sizes
+        geometry, given.surface, given.known, given.plan, tagged, options.sheets, given.sizes
     )
     triangles, tags = triangles[tags > 0], tags[tags > 0]
     cell = given.known.cell_of(part) + 1
-    if volumes == "cells" and cells != "none":
+    if options.volumes == "cells" and options.cells != "none":
         solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
     else:
         solid = region_groups(geometry, given.sizes)
@@ -145,19 +155,28 @@ def _meshed(
         _unprojected(given, points, triangles, tags, groups),
         lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
         source=geometry.model.source,
-        found_by=() if cells == "none" else _found_by(given),
+        found_by=() if options.cells == "none" else _found_by(given),
     )
     return with_fields(geometry, result, asked, cell) if asked else result
 
 
-def _prepared(
-    geometry: Geometry, wanted: Wanted, cells: Cells, method: Method, tell: Progress
-) -> Prepared:
+def _meshed_near(
+    geometry: Geometry, near: Nearer, options: _Options, asked: Sequence[str], tell: Progress
+) -> TetMesh:
+    """Mesh a model with its end brought near, and put back what is before it."""
+    made = _meshed(near.geometry.local, near.wanted, options, (), tell)
+    made = moved_mesh(made, near.geometry.offset)
+    groups = far_groups(made.groups, [region.volume for region in geometry.regions], near)
+    result = swept(made, near, groups)
+    return with_fields(geometry, result, asked, result.tet_tags) if asked else result
+
+
+def _prepared(geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress) -> Prepared:
     """What TetWild is given; where there is no skeleton for it, how to do without is said."""
     try:
-        return prepared(geometry, wanted, cells, surfaces_by(method), tell)
+        return prepared(geometry, wanted, options.cells, surfaces_by(options.method), tell)
     except GeometryError as error:
-        if cells == "none":
+        if options.cells == "none":
             raise
         raise error.advised("'--cells none' makes a mesh without cells") from error
 

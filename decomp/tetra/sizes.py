@@ -43,6 +43,21 @@ STEP = 1.25
 
 
 @dataclass(frozen=True)
+class FarEnd:
+    """The end of a model that was brought near (`nearer`), and what is before it.
+
+    Args:
+        region: its name.
+        size: length of edges in it.
+        faces: of the end, each with its region's name; how they are bent asks for nothing.
+    """
+
+    region: str
+    size: float
+    faces: frozenset[tuple[str, str]]
+
+
+@dataclass(frozen=True)
 class Wanted:
     """What the user asks for.
 
@@ -50,6 +65,7 @@ class Wanted:
         size: length of edges, in model units, where nothing asks for shorter ones.
         layers: elements across thin parts.
         per_circle: edges around a full circle.
+        far: the end, of models that have been changed there.
 
     Raises:
         InputError: one is no number, or out of its range.
@@ -58,6 +74,7 @@ class Wanted:
     size: float | None = None
     layers: int | None = None
     per_circle: float | None = None
+    far: FarEnd | None = None
 
     def __post_init__(self) -> None:
         if self.size is not None:
@@ -110,7 +127,10 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
         default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)
         length = default if wanted.size is None else wanted.size
         given = region.options.get("maxh")
-        found.append(length if given is None else min(length, given))
+        length = length if given is None else min(length, given)
+        if wanted.far is not None and wanted.far.region == region.name:
+            length = wanted.far.size
+        found.append(length)
     return np.array(found)
 
 
@@ -153,6 +173,8 @@ def _curved(
     change = total = 0.0
     for index, sides in enumerate(region.face_sides):
         face = region.boundary.faces[index]
+        if wanted.far is not None and (region.name, face.name) in wanted.far.faces:
+            continue
         triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
         limit = face.options.get("maxh")
         spacing = largest if limit is None else min(largest, limit)
