@@ -16,7 +16,7 @@ from decomp.tetra.workplace import sweep
 
 EXAMPLES = """\
 examples:
-  decomp mesh part.geo                 part.msh: a mesh with a name on every cell and face
+  decomp mesh part.geo                 part.msh: a mesh with a name on every region and face
   decomp check part.geo part.msh       whether a mesh is one of its model
   decomp info part.geo                 what is in a model: volume, faces, edges
   decomp info part.csg --json          the same for programs
