@@ -8,14 +8,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
-from decomp.arguments import called, one_of, switch
+from decomp.arguments import called, one_of
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
@@ -25,12 +24,16 @@ from decomp.surfaces import surfaces_by
 from decomp.tetra.cells import OUTSIDE
 from decomp.tetra.check_names import resolved
 from decomp.tetra.child import TimeLimit
+from decomp.tetra.chosen_of_model import check_chosen
 from decomp.tetra.fields import checked_fields, with_fields
-from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.mesh import FoundBy, Group, TetMesh
+from decomp.tetra.group import Group, GroupKind
+from decomp.tetra.grouping import Chosen, Volumes
+from decomp.tetra.groups import cell_parts, region_parts, surface_parts
+from decomp.tetra.mesh import FoundBy, TetMesh, regrouped
 from decomp.tetra.moved import moved_mesh
 from decomp.tetra.nearer import Nearer, brought_near
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
+from decomp.tetra.parts import Parts
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
@@ -54,8 +57,11 @@ def mesh(
     elements_per_circle: float | None = None,
     order: int = 1,
     cells: Cells = "skeleton",
-    volumes: Literal["cells", "regions"] = "cells",
-    sheets: bool = True,
+    volumes: Volumes = "regions",
+    sheets: bool = False,
+    groups: Mapping[str, str | Sequence[str]] | None = None,
+    split_faces: bool = False,
+    edges: bool = False,
     fields: Sequence[str] = (),
     timeout: float | None = None,
     progress: Progress | None = None,
@@ -72,9 +78,15 @@ def mesh(
         order: 1 for straight elements, 2 for quadratic ones.
         cells: `skeleton`, `face` for one cell for each boundary face, or `none`: then no skeleton
             is computed, and the mesh has faces, interfaces and regions alone.
-        volumes: `cells`, or `regions` for one physical volume for each region, which is all there
-            is without cells.
-        sheets: whether triangles between the cells of a region are tagged.
+        volumes: `regions` for one group of tetrahedra for each region, `cells` for one for each
+            cell, `materials` for one for all regions of one material and each without one.
+        sheets: whether there are groups of the triangles between the cells of a region.
+        groups: by name one pattern or several: the faces, regions or edges that they stand for
+            are one group of that name (`TetMesh.select`).
+        split_faces: whether the pieces of a face (`base.zmax`, `base.zmax@2`) are groups of their
+            own; else they are one.
+        edges: whether edges and vertices of the model are groups of edges of triangles and of
+            nodes, named by the faces that meet there: `part/base.zmax&hole.side`.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
         timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
@@ -91,40 +103,42 @@ def mesh(
     """
     order = one_of(order, (1, 2), "order")
     cells = one_of(cells, ("skeleton", "face", "none"), "cells")
-    volumes = one_of(volumes, ("cells", "regions"), "volumes")
-    sheets = switch(sheets, "sheets")
+    chosen = Chosen(volumes, sheets, {} if groups is None else groups, split_faces, edges)
     called(progress, "progress")
     method = checked_method(method)
     seconds = None if timeout is None else positive(timeout, "timeout")
     asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
+    check_chosen(geometry, chosen, with_cells=cells != "none")
+    options = _Options(order, cells, method, seconds)
+    tell = progress or (lambda what, done: None)
     with geometry.frame(), located(geometry):
-        options = _Options(order, cells, volumes, sheets, seconds, method)
-        tell = progress or (lambda what, done: None)
-        near = brought_near(geometry.local, wanted) if order == 1 and cells == "none" else None
+        local = geometry.local
+        near = brought_near(local, wanted) if order == 1 and cells == "none" else None
         if near is None:
-            made = _meshed(geometry.local, wanted, options, asked, tell)
+            made, parts = _meshed(local, wanted, options, tell)
         else:
-            made = _meshed_near(geometry.local, near, options, asked, tell)
-    return moved_mesh(made, geometry.offset)
+            made, parts = _meshed_near(local, near, options, tell)
+        made, parts = with_fields(local, made, parts, asked)
+    made = replace(made, parts=parts, part_rows=np.arange(len(parts.of_triangles)))
+    return moved_mesh(regrouped(made, chosen), geometry.offset)
 
 
 @dataclass(frozen=True)
 class _Options:
-    """What `mesh` is asked for beside lengths and fields; all have been checked."""
+    """What `mesh` is asked for beside lengths and groups; all have been checked."""
 
     order: int
     cells: Cells
-    volumes: Literal["cells", "regions"]
-    sheets: bool
-    seconds: float | None
     method: Method
+    seconds: float | None
 
 
 def _meshed(
-    geometry: Geometry, wanted: Wanted, options: _Options, asked: Sequence[str], tell: Progress
-) -> TetMesh:
+    geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress
+) -> tuple[TetMesh, Parts]:
+    """A mesh whose groups are its parts, and these."""
     given = _prepared(geometry, wanted, options, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
     seconds = options.seconds
@@ -134,41 +148,53 @@ def _meshed(
         tell("curving", FILLED)
     points, tets, triangles = _elements(given, made, options.order)
     tagged, part = made.fit.tagged, made.fit.part
-    groups, tags = surface_groups(
-        geometry, given.surface, given.known, given.plan, tagged, options.sheets, given.sizes
+    surfaces, tags = surface_parts(
+        geometry, given.surface, given.known, given.plan, tagged, given.sizes
     )
     triangles, tags = triangles[tags > 0], tags[tags > 0]
-    cell = given.known.cell_of(part) + 1
-    if options.volumes == "cells" and options.cells != "none":
-        solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
-    else:
-        solid = region_groups(geometry, given.sizes)
-        tet_tags = given.known.region_of(part) + 1
+    cell, region = given.known.cell_of(part) + 1, given.known.region_of(part) + 1
+    has_cells = options.cells != "none"
+    parts = Parts(
+        tuple(region_parts(geometry, given.sizes)),
+        tuple(each.options.get("material") for each in geometry.model.regions),
+        tuple(cell_parts(geometry, given.known, given.sizes)) if has_cells else (),
+        cell if has_cells else region,
+        tuple(surfaces),
+        triangles,
+        tags,
+    )
     result = TetMesh(
         geometry.model.name,
         points,
         tets,
-        tet_tags,
+        parts.of_tets,
         triangles,
         tags,
-        (*solid, *groups),
-        _unprojected(given, points, triangles, tags, groups),
+        (*parts.solids, *surfaces),
+        _unprojected(given, points, triangles, tags, surfaces),
         lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
         source=geometry.model.source,
-        found_by=() if options.cells == "none" else _found_by(given),
+        found_by=_found_by(given) if has_cells else (),
     )
-    return with_fields(geometry, result, asked, cell) if asked else result
+    return result, parts
 
 
 def _meshed_near(
-    geometry: Geometry, near: Nearer, options: _Options, asked: Sequence[str], tell: Progress
-) -> TetMesh:
+    geometry: Geometry, near: Nearer, options: _Options, tell: Progress
+) -> tuple[TetMesh, Parts]:
     """Mesh a model with its end brought near, and put back what is before it."""
-    made = _meshed(near.geometry.local, near.wanted, options, (), tell)
+    made, parts = _meshed(near.geometry.local, near.wanted, options, tell)
     made = moved_mesh(made, near.geometry.offset)
     groups = far_groups(made.groups, [region.volume for region in geometry.regions], near)
     result = swept(made, near, groups)
-    return with_fields(geometry, result, asked, result.tet_tags) if asked else result
+    return result, replace(
+        parts,
+        regions=tuple(group for group in groups if group.kind is GroupKind.REGION),
+        of_tets=result.tet_tags,
+        surfaces=tuple(group for group in groups if group.dimension == 2),
+        triangles=result.triangles,
+        of_triangles=result.triangle_tags,
+    )
 
 
 def _prepared(geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress) -> Prepared:

@@ -142,9 +142,11 @@ def _of_skeleton(skeleton: Skeleton) -> Iterator[Part]:
 
 
 def _of_mesh(path: Path) -> Scene:
+    from decomp.tetra.finest import finest
     from decomp.tetra.msh_reader import read_msh
 
-    mesh = read_msh(path)
+    read = read_msh(path)
+    mesh = finest(read)
     parts = []
     tets = mesh.tets[:, :4]
     quality = radius_ratios(mesh.points, tets)
@@ -156,12 +158,15 @@ def _of_mesh(path: Path) -> Scene:
         value = np.repeat(quality[own[outer // 4]][:, None], 3, axis=1)
         name = mesh.names.get((3, tag), "") or f"volume {tag}"
         parts.append(Part("cell", name, "cell", mesh.points[faces[outer]], value))
-    for tag in np.unique(mesh.triangle_tags).tolist():
-        triangles = mesh.triangles[mesh.triangle_tags == tag, :3]
-        name = mesh.names.get((2, tag), "") or f"surface {tag}"
-        corners = mesh.points[triangles]
-        group = "sheet" if "|" in name and name.count("/") == 1 else "face"
-        parts.append(Part(group, name, group, corners, np.zeros(triangles.shape)))
+    own_triangles = len(read.triangles)
+    inner = (mesh.triangles[own_triangles:], mesh.triangle_tags[own_triangles:], mesh.names)
+    for elements, tags, names in ((read.triangles, read.triangle_tags, read.names), inner):
+        for number in np.unique(tags).tolist():
+            triangles = elements[tags == number, :3]
+            name = names.get((2, number), "") or f"surface {number}"
+            corners = mesh.points[triangles]
+            group = "sheet" if "|" in name and name.count("/") == 1 else "face"
+            parts.append(Part(group, name, group, corners, np.zeros(triangles.shape)))
     return Scene(plain(path.name), tuple(parts), "quality")
 
 

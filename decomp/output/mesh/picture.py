@@ -1,4 +1,4 @@
-"""A picture (.png) of a mesh cut open: a colour for each cell, every element's edges.
+"""A picture (.png) of a mesh cut open: a colour for each cell or region, every element's edges.
 
 The half of the tetrahedra that is nearer to the eye is left away, so that cells show inside. It is
 drawn here, with a depth buffer, as a picture must come out on machines without a display.
@@ -34,7 +34,7 @@ def encoded(mesh: TetMesh) -> bytes:
     corners = mesh.points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     seen = normal @ EYE > 0
-    image = painted(corners[seen], _palette(int(mesh.tet_tags.max()) + 1)[groups[seen]])
+    image = painted(corners[seen], _palette(int(groups.max()) + 1)[groups[seen]])
     return png.encoded(smaller(image))
 
 
@@ -57,10 +57,10 @@ def smaller(image: Array) -> NDArray[np.uint8]:
 
 
 def _shown(mesh: TetMesh) -> tuple[Ints, Ints]:
-    """The hull (k, 3) of the half that is left, pointing out, and the groups (k,) of its cells."""
+    """The hull (k, 3) of the half that is left, pointing out, and the cells or regions (k,)."""
     middle = (mesh.points.min(axis=0) + mesh.points.max(axis=0)) / 2
     behind = (mesh.points[mesh.tets[:, :4]].mean(axis=1) - middle) @ CUT < 0
-    tets, tags = mesh.tets[behind], mesh.tet_tags[behind]
+    tets, tags = mesh.tets[behind], mesh.all_parts.of_tets[behind]
     faces = faces_of(tets)
     _, first, count = np.unique(row_keys(faces), return_index=True, return_counts=True)
     outer = first[count == 1]
