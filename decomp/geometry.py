@@ -56,6 +56,14 @@ class Geometry:
         self.offset: Array = self.boundaries.offset
         self.local: Geometry = self if not self.offset.any() else _in_place(self.boundaries)
 
+    @classmethod
+    def of(cls, found: Boundaries) -> Geometry:
+        """The geometry of boundaries that have been computed."""
+        result = _in_place(found)
+        if found.offset.any():
+            result.offset, result.local = found.offset, _in_place(found)
+        return result
+
     @cached_property
     def regions(self) -> tuple[RegionBoundary, ...]:
         """The boundary of each region, in the model's order."""

@@ -8,11 +8,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from decomp.arguments import called, one_of
 from decomp.csg.model import Model
@@ -31,14 +33,17 @@ from decomp.tetra.grouping import Chosen, Volumes
 from decomp.tetra.groups import cell_parts, region_parts, surface_parts
 from decomp.tetra.mesh import FoundBy, TetMesh, regrouped
 from decomp.tetra.moved import moved_mesh
+from decomp.tetra.named_sizes import checked_sizes, sized
 from decomp.tetra.nearer import Nearer, brought_near
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
 from decomp.tetra.parts import Parts
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
+from decomp.tetra.size_places import field_of, places_of
 from decomp.tetra.sizes import Wanted
 from decomp.tetra.sweeping import far_groups, swept
 from decomp.tetra.tetrahedra import Filled, filled
+from decomp.tetra.wishes import shorter
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
 from decomp.ways import Method, checked_method
@@ -53,6 +58,9 @@ def mesh(
     source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
     *,
     size: float | None = None,
+    sizes: Mapping[str, float] | None = None,
+    size_at: Sequence[tuple[Any, ...]] | None = None,
+    size_field: Callable[[Array], Array] | tuple[ArrayLike, ArrayLike] | None = None,
     layers: int | None = None,
     elements_per_circle: float | None = None,
     order: int = 1,
@@ -73,6 +81,12 @@ def mesh(
         source: a geometry, or what one can be made of.
         size: edge length wanted, in model units: the mean comes out a little below it, and no edge
             is longer than 1.5 times as much.
+        sizes: lengths by pattern (`TetMesh.select`): of regions, in place of `size`, the file's
+            `maxh` and the default; on faces, at most. The last that stands for something counts.
+        size_at: lengths in places, at most: (point, length), (centre, radius, length) of a ball,
+            (corner, corner, length) of a box.
+        size_field: a function of points (n, 3) that gives lengths (n,), at most; or points and the
+            lengths there, which are linear in between.
         layers: at least so many elements across thin parts.
         elements_per_circle: at least so many edges around a full circle of a curved face.
         order: 1 for straight elements, 2 for quadratic ones.
@@ -108,14 +122,21 @@ def mesh(
     method = checked_method(method)
     seconds = None if timeout is None else positive(timeout, "timeout")
     asked = checked_fields(fields, with_cells=cells != "none")
+    named, places, everywhere = checked_sizes(sizes), places_of(size_at), field_of(size_field)
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
+    geometry, of_regions = sized(geometry, named)
+    offset = geometry.offset
+    wanted = replace(
+        wanted, of_regions=of_regions, places=places, everywhere=everywhere, offset=offset
+    )
     check_chosen(geometry, chosen, with_cells=cells != "none")
     options = _Options(order, cells, method, seconds)
     tell = progress or (lambda what, done: None)
     with geometry.frame(), located(geometry):
         local = geometry.local
-        near = brought_near(local, wanted) if order == 1 and cells == "none" else None
+        can_be_near = order == 1 and cells == "none" and not places and everywhere is None
+        near = brought_near(local, wanted) if can_be_near else None
         if near is None:
             made, parts = _meshed(local, wanted, options, tell)
         else:
@@ -163,6 +184,7 @@ def _meshed(
         triangles,
         tags,
     )
+    lengths, reason, reasons = shorter(given.wish, given.chords, points)
     result = TetMesh(
         geometry.model.name,
         points,
@@ -172,7 +194,9 @@ def _meshed(
         tags,
         (*parts.solids, *surfaces),
         _unprojected(given, points, triangles, tags, surfaces),
-        lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
+        lengths=lengths,
+        reason=reason,
+        reasons=reasons,
         source=geometry.model.source,
         found_by=_found_by(given) if has_cells else (),
     )

@@ -21,7 +21,8 @@ from decomp.files.targets import check_outputs, reason
 from decomp.plain import plain
 
 PASSED = (
-    *("size", "layers", "circle", "order", "cells", "method", "volumes", "sheets", "fields"),
+    *("size", "sizes", "size_at", "outside_size"),
+    *("layers", "circle", "order", "cells", "method", "volumes", "sheets", "fields"),
     *("groups", "split_faces", "edges"),
     *("ascii", "msh2", "timeout", "quiet", "outside", "outside_only"),
 )

@@ -13,6 +13,7 @@ from decomp.cli.arguments import add_output, positive
 from decomp.cli.groups import all_groups, named_patterns
 from decomp.cli.models import add_outside, model_of
 from decomp.cli.said import say
+from decomp.cli.sizes import length_at, named_length
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
@@ -77,6 +78,31 @@ def _size_options(parser: argparse.ArgumentParser) -> None:
         metavar="H",
         help="length of edges, in model units: none is longer than 1.5 H, and where nothing asks "
         "for shorter ones they are 0.75 to 1.05 H in the mean (default: from the model)",
+    )
+    group.add_argument(
+        "--maxh",
+        dest="sizes",
+        type=named_length,
+        action="append",
+        default=[],
+        metavar="PATTERN=H",
+        help="length of edges in regions, or at most on faces, that a pattern stands for, such as "
+        "'*/bolt*.side=0.5'; may be given several times, the last that fits counts",
+    )
+    group.add_argument(
+        "--size-at",
+        type=length_at,
+        action="append",
+        default=[],
+        metavar="X,Y,Z[,R]=H",
+        help="length of edges at most at a point, in the ball of radius R about it, or in a box: "
+        "X,Y,Z,X,Y,Z=H; may be given several times",
+    )
+    group.add_argument(
+        "--outside-size",
+        type=positive,
+        metavar="H",
+        help="length of edges at the end of what --outside adds; from the model outwards they grow",
     )
     group.add_argument(
         "--layers",
@@ -284,6 +310,8 @@ def meshed(
         made = mesh(
             geometry,
             size=options.size,
+            sizes=_sizes(options),
+            size_at=options.size_at,
             layers=options.layers,
             elements_per_circle=options.circle,
             order=options.order,
@@ -300,6 +328,23 @@ def meshed(
         )
         spent = stages.spent()
     return made, report(made, stages=spent, ignored=geometry.model.ignored)
+
+
+def _sizes(options: argparse.Namespace) -> dict[str, float]:
+    """Lengths by pattern.
+
+    Raises:
+        InputError: one is asked for what is not there.
+    """
+    from decomp.errors import InputError
+    from decomp.outside import OUTSIDE
+
+    sizes = dict(options.sizes)
+    if options.outside_size is not None:
+        if options.outside is None:
+            raise InputError("--outside-size needs --outside ball or --outside box")
+        sizes[OUTSIDE] = options.outside_size
+    return sizes
 
 
 def _count(text: str) -> int:

@@ -25,11 +25,12 @@ from decomp.tetra.features import usual_epsilon
 from decomp.tetra.layout import Layout, layout
 from decomp.tetra.preparation import Prepared
 from decomp.tetra.shortening import lengths_asked
-from decomp.tetra.sizes import Wishes
+from decomp.tetra.sizes import Wanted
 from decomp.tetra.soup import soup
 from decomp.tetra.strayed import strayed
 from decomp.tetra.surface import MeshSurface, RegionSurface
 from decomp.tetra.tetrahedra import filled
+from decomp.tetra.wishes import UNKNOWN, joined
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints
 
@@ -98,7 +99,7 @@ def interior(
     plan = layout(given, known)
     elements = Elements(plan.complex)
     settings = Settings(size, epsilon)
-    wish = Wishes(mesh.points, np.full(len(mesh.points), size))
+    wish = joined([(mesh.points, np.full(len(mesh.points), size), UNKNOWN)])
     sizes = np.full(len(geometry.regions), size)
     prepared = Prepared(
         geometry,
@@ -111,7 +112,7 @@ def interior(
         None,
         0.0,
         sizes,
-        lengths_asked(geometry, known, plan, sizes),
+        lengths_asked(geometry, known, plan, sizes, Wanted()),
         wish,
         chords(given, sizes, CHORD * epsilon),
     )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.tetra.layout import samples
-from decomp.tetra.sizes import Wishes, curvatures
+from decomp.tetra.sizes import curvatures
 from decomp.tetra.surface import MeshSurface
+from decomp.tetra.wishes import Reason, Wish, Wishes, joined
 from decomp.vectors import Array
 
 
@@ -21,12 +22,12 @@ def chords(surface: MeshSurface, sizes: Array, rise: float) -> Wishes:
         rise: in model units.
     """
     mesh = surface.complex
-    points, lengths = [], []
+    found: list[Wish] = []
     for region, size in zip(surface.regions, sizes.tolist(), strict=True):
         for face, sides in zip(region.boundary.faces, region.face_sides, strict=True):
             triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
             some, _ = samples(mesh.points, triangles, size)
             bend = np.abs(curvatures(region.boundary.carriers[face.carrier], some)).max(axis=0)
-            points.append(some)
-            lengths.append(np.minimum(np.sqrt(8 * rise / np.maximum(bend, 1e-300)), size))
-    return Wishes(np.concatenate(points), np.concatenate(lengths))
+            lengths = np.minimum(np.sqrt(8 * rise / np.maximum(bend, 1e-300)), size)
+            found.append((some, lengths, Reason(f"curvature of {region.name}/{face.name}")))
+    return joined(found)

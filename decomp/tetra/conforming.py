@@ -91,7 +91,7 @@ def conformed(
         if mended is None:
             break
         points, tets, part = mended
-    projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
+    projector.smooth(LONGEST * asked.edges(projector.points, tets, part, tagged).asked)
     for _ in range(FLIPS):
         better = flipped(projector.points, tets, part, tagged.triangles)
         if better is None:
@@ -99,7 +99,7 @@ def conformed(
         tets, part = better
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
         projector.settle()
-        projector.smooth(LONGEST * asked.edges(tets, part, tagged).asked)
+        projector.smooth(LONGEST * asked.edges(projector.points, tets, part, tagged).asked)
     for turn in range(SLIPS + 1):
         targets, slipped = renewed(targets, finder.targets(projector.points, tagged))
         if not len(slipped) or turn == SLIPS:

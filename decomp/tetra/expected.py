@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.geometry import Geometry
-from decomp.tetra.sizes import Wishes
+from decomp.tetra.wishes import Wishes
 from decomp.vectors import Array
 
 REGULAR = 0.118

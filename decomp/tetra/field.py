@@ -6,14 +6,12 @@ the lengths wanted in them: fine where these are short, and coarse in what is em
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
 from decomp.geometry import Geometry
 from decomp.tetra.child import SizeField
-from decomp.tetra.sizes import SLOPE, Wishes
+from decomp.tetra.wishes import SLOPE, Lengths, Wishes
 from decomp.vectors import Array, Ints
 
 MARGIN = 0.2
@@ -38,9 +36,6 @@ WIDEST = 0.5
 cube that its field is made in."""
 AROUND = 0.05
 """How far TetWild's box reaches beyond the model, in parts of its diagonal."""
-
-Lengths = Callable[[Array], Array]
-"""Points (k, 3) -> lengths (k,)."""
 
 
 def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeField | None]:

@@ -14,6 +14,7 @@ from decomp.tetra.group import GroupKind as GroupKind
 from decomp.tetra.group_names import named, selected
 from decomp.tetra.grouping import Chosen, Volumes, grouped
 from decomp.tetra.parts import Parts, looked_up, of_groups
+from decomp.tetra.wishes import Reason
 from decomp.vectors import Array, Ints
 
 if TYPE_CHECKING:
@@ -63,6 +64,8 @@ class TetMesh:
         cell_data: (m,) values of tetrahedra by name; `cell`, the number of its cell from 1, where
             there are cells.
         lengths: (n,) edge length wanted at each node; None if unknown.
+        reason: (n,) which of `reasons` decided it; None if unknown.
+        reasons: why lengths are wanted.
         source: the file that the model was read from, if any; no output may replace it.
         found_by: how the skeleton of each region was found; none without cells.
         lines: (e, 2) or (e, 3) edges of triangles, with the middle node last.
@@ -84,6 +87,8 @@ class TetMesh:
     point_data: Mapping[str, Array] = field(default_factory=dict)
     cell_data: Mapping[str, Ints] = field(default_factory=dict)
     lengths: Array | None = None
+    reason: Ints | None = None
+    reasons: tuple[Reason, ...] = ()
     source: Path | None = None
     found_by: tuple[FoundBy, ...] = ()
     lines: Ints = field(default_factory=lambda: NO_TAGS.reshape(0, 2))

@@ -19,9 +19,10 @@ from decomp.tetra.field import sizing
 from decomp.tetra.layout import Layout, layout
 from decomp.tetra.memory import check_memory
 from decomp.tetra.shortening import Lengths, lengths_asked
-from decomp.tetra.sizes import Wanted, Wishes, region_sizes, wishes
+from decomp.tetra.sizes import Wanted, region_sizes, wishes
 from decomp.tetra.soup import soup
 from decomp.tetra.surface import MeshSurface, Surfaces
+from decomp.tetra.wishes import Wishes
 from decomp.vectors import Array, Ints
 
 CHORD, COARSEST = 0.4, 0.65
@@ -118,7 +119,7 @@ def prepared(
         field,
         expected,
         sizes,
-        lengths_asked(geometry, known, plan, sizes),
+        lengths_asked(geometry, known, plan, sizes, wanted),
         wish,
         chords(surface, sizes, CHORD * epsilon),
     )

@@ -11,6 +11,7 @@ import numpy as np
 from decomp.csg.model import Ignored
 from decomp.medial.result import Method
 from decomp.near import listed
+from decomp.tetra.deciding import Decider, deciders
 from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.tetra.pieces import whole_name
@@ -38,6 +39,7 @@ class Volume:
         edges: of a region; None for cells.
         method, cause: how a region's skeleton was found, and why it was not traced; None for cells
             and without them.
+        deciders: what asks for shorter edges in a region than are asked for all over it.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Volume:
     edges: EdgeLengths | None = None
     method: str | None = None
     cause: str | None = None
+    deciders: tuple[Decider, ...] = ()
 
     @property
     def error(self) -> float | None:
@@ -179,7 +182,8 @@ def report(
         own = mesh.tets[of_region == each.tag]
         edges = edge_lengths(mesh.points, own, each.length, mesh.lengths)
         method, cause = ways.get(each.name, (None, None))
-        regions.append(replace(found, edges=edges, method=method, cause=cause))
+        why = deciders(mesh, own)
+        regions.append(replace(found, edges=edges, method=method, cause=cause, deciders=why))
     return Report(
         mesh.name,
         mesh.order,
@@ -283,6 +287,7 @@ def as_text(found: Report) -> list[str]:
         )
         if region.edges is not None:
             lines.append(f"    {edges_text(region.edges)}")
+            lines += _decided(region.deciders, region.edges.asked)
         if region.method == Method.SAMPLED.value:
             why = "" if region.cause is None else f": tracing failed, as {region.cause}"
             lines.append(f"    skeleton sampled{why}")
@@ -329,6 +334,15 @@ def as_text(found: Report) -> list[str]:
     if found.stages:
         lines.append("  " + _times(found.stages))
     return lines
+
+
+def _decided(found: Sequence[Decider], asked: float | None) -> list[str]:
+    """What decides, a line for each."""
+    than = "" if asked is None else f" where {asked:.4g} was asked"
+    return [
+        f"    {each.what} decides at {each.share:.0%} of its nodes: {each.length:.3g}{than}"
+        for each in found
+    ]
 
 
 def edges_text(edges: EdgeLengths) -> str:

@@ -7,7 +7,7 @@ nodes are put in place, so that new ones on faces, sheets and edges go there wit
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from decomp.tetra.cells import CellMap
 from decomp.tetra.cutting import apart, halved
 from decomp.tetra.faces import EDGES, edges_of
 from decomp.tetra.layout import TRIANGLE_EDGES, Layout
+from decomp.tetra.size_places import Place
+from decomp.tetra.sizes import Wanted
 from decomp.tetra.tagging import Tagged
 from decomp.vectors import Array, Ints, norm
 
@@ -58,24 +60,40 @@ class Lengths:
         of_part: (p,) in each part of a cell, its region's.
         of_patch: (q,) on each patch of the complex; infinite where its faces ask for nothing.
         region: (p,) of each part.
+        places: in which edges are to be shorter.
+        offset: (3,) what points are counted from, for places.
     """
 
     of_part: Array
     of_patch: Array
     region: Ints
+    places: tuple[Place, ...] = ()
+    offset: Array = field(default_factory=lambda: np.zeros(3))
 
-    def edges(self, tets: Ints, part: Ints, tagged: Tagged) -> Edges:
+    def of_tets(self, points: Array, tets: Ints, part: Ints) -> Array:
+        """The length (m,) asked in tetrahedra (m, 4) of parts (m,)."""
+        found = self.of_part[part]
+        middles = points[tets].mean(axis=1)
+        for place in self.places:
+            inside = place.away(middles, self.offset) == 0
+            found = np.where(inside, np.minimum(found, place.length), found)
+        return found
+
+    def edges(self, points: Array, tets: Ints, part: Ints, tagged: Tagged) -> Edges:
         """The edges of tetrahedra (m, 4) of parts (m,), with tagged triangles."""
         own = self.of_patch[tagged.patches]
-        return edges_asked(tets, self.of_part[part], tagged.triangles, own)
+        return edges_asked(tets, self.of_tets(points, tets, part), tagged.triangles, own)
 
 
-def lengths_asked(geometry: Geometry, cells: CellMap, plan: Layout, sizes: Array) -> Lengths:
+def lengths_asked(
+    geometry: Geometry, cells: CellMap, plan: Layout, sizes: Array, wanted: Wanted
+) -> Lengths:
     """The lengths asked of a model's cells and patches.
 
     Args:
         geometry, cells, plan: of the model.
         sizes: (r,) the largest length in each region.
+        wanted: by the user.
 
     Raises:
         InputError: the `maxh` of a face is no number above 0.
@@ -87,7 +105,7 @@ def lengths_asked(geometry: Geometry, cells: CellMap, plan: Layout, sizes: Array
             if length is not None:
                 found[patch] = min(found[patch], length, sizes[region])
     of_part = cells.region[cells.cell]
-    return Lengths(sizes[of_part], found, of_part)
+    return Lengths(sizes[of_part], found, of_part, wanted.places, wanted.offset)
 
 
 def edges_asked(tets: Ints, limit: Array, triangles: Ints, own: Array) -> Edges:
@@ -126,7 +144,7 @@ def shortened(
     Returns:
         points, tetrahedra and parts.
     """
-    limit = asked.of_part[part]
+    limit = asked.of_tets(points, tets, part)
     triangles, own = tagged.triangles, asked.of_patch[tagged.patches]
     for _ in range(ROUNDS):
         edges = edges_asked(tets, limit, triangles, own)

@@ -1,16 +1,13 @@
-"""How long edges should be, and where: wishes at points, joined into one field.
-
-A wish is a length at a point. Away from it lengths may grow by a fixed slope, and the least of all
-that follows counts, so that neighbouring tetrahedra never differ much.
-"""
+"""How long edges should be, and where: by the user, the model's file, curvature and thickness."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import partial
 from math import pi, sqrt
 
 import numpy as np
-from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.arguments import whole
 from decomp.carriers import Carrier
@@ -18,7 +15,9 @@ from decomp.errors import InputError
 from decomp.geometry import Geometry
 from decomp.tetra.features import thickness
 from decomp.tetra.layout import samples
+from decomp.tetra.size_places import Place, SizeFunction
 from decomp.tetra.surface import MeshSurface
+from decomp.tetra.wishes import Lengths, Reason, Wish, Wishes, joined
 from decomp.vectors import Array, cross, norm, positive
 from decomp.vectors import number as finite
 
@@ -27,19 +26,17 @@ PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 VOLUME, ASKED = 3e-3, 1.4e-3
 """Where edges of the wanted length would change a region's volume by more than the first part of
 it, they are made so short that it is the second: TetWild leaves edges up to 4/3 as long."""
-SLOPE = 0.35
-"""How much longer edges may get for each unit of way."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
 CANCELLED = 0.3
 """Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
 THIN = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
+LOOKS = 20_000
+"""In each region's box a field is looked at in so many places."""
 EVEN, ROUGH = 0.85, 1.2
 """Edges about as long as the part is thick, up to the second of these parts of it, are made as long
 as the first: the skeleton halves walls, and tetrahedra over half of one would all come out flat."""
-STEP = 1.25
-"""Wishes are joined in classes of lengths that differ by this factor."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +62,10 @@ class Wanted:
         size: length of edges, in model units, where nothing asks for shorter ones.
         layers: elements across thin parts.
         per_circle: edges around a full circle.
+        of_regions: lengths in regions by their names, which go before `size` and the default.
+        places: where edges are to be shorter.
+        everywhere: lengths wanted, by the place.
+        offset: (3,) what points are counted from, for both.
         far: the end, of models that have been changed there.
 
     Raises:
@@ -74,6 +75,10 @@ class Wanted:
     size: float | None = None
     layers: int | None = None
     per_circle: float | None = None
+    of_regions: Mapping[str, float] = field(default_factory=dict)
+    places: tuple[Place, ...] = ()
+    everywhere: SizeFunction | None = None
+    offset: Array = field(default_factory=lambda: np.zeros(3))
     far: FarEnd | None = None
 
     def __post_init__(self) -> None:
@@ -89,26 +94,6 @@ class Wanted:
             if not 3 <= count <= 10000:
                 raise InputError(f"elements per circle must be from 3 to 10000, got {count:g}")
             object.__setattr__(self, "per_circle", count)
-
-
-@dataclass(frozen=True, eq=False)
-class Wishes:
-    """Lengths (n,) wanted at points (n, 3)."""
-
-    points: Array
-    lengths: Array
-
-    def at(self, places: Array) -> Array:
-        """The field (k,) at places (k, 3): the least of all wishes, grown with the distance."""
-        found = np.full(len(places), np.inf)
-        least = float(self.lengths.min())
-        classes = np.floor(np.log(self.lengths / least) / np.log(STEP)).astype(np.int64)
-        for number in np.unique(classes).tolist():
-            rows = classes == number
-            length = least * STEP**number
-            gap, _ = cKDTree(self.points[rows]).query(places)
-            found = np.minimum(found, length + SLOPE * gap)
-        return found
 
 
 def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
@@ -128,6 +113,7 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
         length = default if wanted.size is None else wanted.size
         given = region.options.get("maxh")
         length = length if given is None else min(length, given)
+        length = wanted.of_regions.get(region.name, length)
         if wanted.far is not None and wanted.far.region == region.name:
             length = wanted.far.size
         found.append(length)
@@ -135,24 +121,61 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
 
 
 def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
-    """All wishes: regions' sizes, curved faces, faces' `maxh`, and layers across thin parts."""
+    """All wishes: of regions and faces, for curvature and thin parts, and at places."""
     largest = region_sizes(geometry, wanted)
     mesh = surface.complex
-    points, lengths = [], []
+    found: list[Wish] = []
     for number, region in enumerate(surface.regions):
         length = float(largest[number])
+        whole = region_reason(geometry, wanted, number)
         patches = [p for sides in region.face_sides for p, _ in sides] + list(region.sheets)
         triangles = np.concatenate([mesh.patches[p].triangles for p in patches])
         some, _ = samples(mesh.points, triangles, length)
-        points.append(some)
-        lengths.append(np.full(len(some), length))
-        for some, own in _curved(geometry, surface, number, length, wanted):
-            points.append(some)
-            lengths.append(own)
+        found.append((some, np.full(len(some), length), whole))
+        found += _curved(surface, number, length, wanted, whole)
         some, thick = thickness(geometry, surface, number, length)
-        points.append(some)
-        lengths.append(_across(thick, length, wanted.layers))
-    return Wishes(np.concatenate(points), np.concatenate(lengths))
+        own = _across(thick, length, wanted.layers)
+        thin = Reason(f"{'thickness' if wanted.layers is None else 'layers'} of {region.name}")
+        found.append((some, own, ((own < length).astype(np.int64), (whole, thin))))
+    return joined(*_asked_for(geometry, wanted, found))
+
+
+def region_reason(geometry: Geometry, wanted: Wanted, number: int) -> Reason:
+    """What the length all over a region comes from."""
+    region = geometry.model.regions[number]
+    size = float(region_sizes(geometry, wanted)[number])
+    if region.name in wanted.of_regions or size == region.options.get("maxh"):
+        return Reason(f"size of {region.name}", True)
+    return Reason("size" if size == wanted.size else f"default of {region.name}", True)
+
+
+def _asked_for(
+    geometry: Geometry, wanted: Wanted, found: list[Wish]
+) -> tuple[list[Wish], list[tuple[Lengths, Reason]]]:
+    """Wishes with those at places and of a field; and what is wanted everywhere."""
+    everywhere: list[tuple[Lengths, Reason]] = []
+    for place in wanted.places:
+        why = Reason(place.what)
+        middle = (place.low + place.high)[None] / 2 - wanted.offset
+        found = [*found, (middle, np.array([place.length]), why)]
+        everywhere.append((partial(place.lengths, offset=wanted.offset), why))
+    if wanted.everywhere is not None:
+        why, lengths = Reason("size_field"), wanted.everywhere
+        spots = np.concatenate([_inside(geometry), *(points for points, *_ in found)])
+        found = [*found, (spots, lengths(spots + wanted.offset), why)]
+        everywhere.append((lambda points: lengths.anywhere(points + wanted.offset), why))
+    return found, everywhere
+
+
+def _inside(geometry: Geometry, seed: int = 0) -> Array:
+    """Points (n, 3) all over the regions, at which a field is looked at."""
+    random = np.random.default_rng(seed)
+    found = []
+    for number, region in enumerate(geometry.regions):
+        low, high = np.array(region.bounds)
+        points = random.uniform(low, high, size=(LOOKS, 3))
+        found.append(points[geometry.index.region_of(points) == number])
+    return np.concatenate(found)
 
 
 def _across(thick: Array, largest: float, layers: int | None) -> Array:
@@ -164,8 +187,8 @@ def _across(thick: Array, largest: float, layers: int | None) -> Array:
 
 
 def _curved(
-    geometry: Geometry, surface: MeshSurface, number: int, largest: float, wanted: Wanted
-) -> list[tuple[Array, Array]]:
+    surface: MeshSurface, number: int, largest: float, wanted: Wanted, whole: Reason
+) -> list[Wish]:
     """Wishes on the curved faces of a region and on faces with a `maxh`."""
     region = surface.regions[number]
     mesh = surface.complex
@@ -192,7 +215,10 @@ def _curved(
         change, total = change + lost, total + abs(lost)
         if limit is not None:
             own = np.minimum(own, limit)
-        found.append((some, own, bend))
+        name = f"{region.name}/{face.name}"
+        reasons = (whole, Reason(f"curvature of {name}"), Reason(f"size of {name}"))
+        which = np.where(own < largest, 1 if limit is None else np.where(own < limit, 1, 2), 0)
+        found.append((some, own, bend, which, reasons))
     content = abs(region.boundary.volume)
     change, part = abs(change) / content, CANCELLED * total / content
     shrunk = 1.0
@@ -201,9 +227,12 @@ def _curved(
             shrunk = sqrt(ASKED / change)
         if part > VOLUME:
             shrunk = min(shrunk, sqrt(VOLUME / part))
-    return [
-        (some, np.where(bend > 1e-12 / largest, shrunk * own, own)) for some, own, bend in found
-    ]
+    wishes: list[Wish] = []
+    for some, own, bend, which, reasons in found:
+        bent = (bend > 1e-12 / largest) & (shrunk < 1.0)
+        lengths = np.where(bent, shrunk * own, own)
+        wishes.append((some, lengths, (np.where(bent, 1, which), reasons)))
+    return wishes
 
 
 def curvatures(carrier: Carrier, points: Array) -> tuple[Array, Array]:

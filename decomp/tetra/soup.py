@@ -6,9 +6,9 @@ import numpy as np
 
 from decomp.tetra.child import Settings
 from decomp.tetra.layout import Layout
-from decomp.tetra.sizes import Wishes
 from decomp.tetra.sorting import sorted_in_space
 from decomp.tetra.subdividing import subdivided
+from decomp.tetra.wishes import Wishes
 from decomp.vectors import Array, Ints
 
 INSERTED = 1.2

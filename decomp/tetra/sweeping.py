@@ -89,7 +89,14 @@ def swept(mesh: TetMesh, given: Nearer, groups: Sequence[Group]) -> TetMesh:
         groups=tuple(groups),
         unprojected=unprojected,
         lengths=lengths,
+        reason=None if mesh.reason is None else _carried_on(mesh.reason, nodes, len(points)),
     )
+
+
+def _carried_on(values: Ints, nodes: Ints, count: int) -> Ints:
+    """Values (count,) of all nodes: those of layers have those of the near end's."""
+    layers = (count - len(values)) // len(nodes)
+    return np.concatenate([values, np.tile(values[nodes], layers)])
 
 
 def _growths(front: _Front) -> list[float]:

@@ -87,7 +87,7 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
         points, tets, part = shortened(points, tets, part, tagged, aimed)
         fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
-        longest = given.asked.edges(tets, part, tagged).excess(points).max()
+        longest = given.asked.edges(points, tets, part, tagged).excess(points).max()
         tighter = tightened(points, tets, part, tagged, given.asked, aimed)
         if longest <= LONGEST and tighter is None:
             break

@@ -13,8 +13,9 @@ from decomp.csg.solid import Solid
 from decomp.tetra.expected import expected_tets
 from decomp.tetra.features import fitting_epsilon, least_thickness, usual_epsilon
 from decomp.tetra.field import STEEP, WIDTH, is_uniform, octree_corners, sizing
-from decomp.tetra.sizes import SLOPE, Wanted, Wishes, curvatures, region_sizes, wishes
+from decomp.tetra.sizes import Wanted, curvatures, region_sizes, wishes
 from decomp.tetra.surface import MeshSurface, SurfaceMaker
+from decomp.tetra.wishes import SLOPE, UNKNOWN, joined
 from decomp.vectors import direction, vector
 from tests.solids import SOLIDS
 
@@ -50,7 +51,8 @@ def test_a_cone_has_no_curvature_at_its_apex() -> None:
 
 def test_lengths_grow_by_a_slope() -> None:
     random = np.random.default_rng(0)
-    wish = Wishes(random.uniform(size=(200, 3)), random.uniform(0.01, 0.5, size=200))
+    given = random.uniform(size=(200, 3)), random.uniform(0.01, 0.5, size=200)
+    wish = joined([(*given, UNKNOWN)])
     a, b = random.uniform(-1, 2, size=(2, 500, 3))
     gap = np.linalg.norm(a - b, axis=1)
     assert (np.abs(wish.at(a) - wish.at(b)) <= SLOPE * gap + 1e-12).all()
@@ -81,7 +83,7 @@ def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
 
 
 def test_cells_are_small_where_lengths_are() -> None:
-    wish = Wishes(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]))
+    wish = joined([(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]), UNKNOWN)])
     corners = octree_corners(np.full(3, -2.0), 14.0, wish.at)
     assert corners.min() == pytest.approx(-2, abs=0.01)
     assert corners.max() == pytest.approx(12, abs=0.01)
