@@ -121,7 +121,7 @@ def test_what_neither_way_gives_keeps_the_first_cause(
     refusing.append("solid")
     monkeypatch.setattr(certificate, "INTRUSION", -1.0)
     monkeypatch.setattr(sampling, "FLOORS", (12.0, 14.0))
-    with pytest.raises(GeometryError, match="^a seam goes astray; sampled instead: ") as caught:
+    with pytest.raises(GeometryError, match=r"^a seam goes astray; sampled instead: ") as caught:
         decomp.skeleton(decomp.Block((0, 0, 0), (4, 3, 2)), method="auto")
     ways = [each.what for each in caught.value.tries]
     assert ways == [
