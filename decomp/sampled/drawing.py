@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
+from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contracting import thin
@@ -20,6 +21,8 @@ from decomp.vectors import Array, Ints
 
 UNFOLDINGS = 4
 """So often walls are smoothed, and what is still folded then is contracted."""
+FOLDS = 0.01
+"""If more than this part of the triangles stays folded refining them is of no use."""
 
 
 def smoothly_drawn(
@@ -38,6 +41,9 @@ def smoothly_drawn(
         mesh: the tetrahedra whose triangles show the boundaries.
         tools, extracted: of each region.
         floor: a length: about that of edges.
+
+    Raises:
+        GeometryError: too many triangles stay folded.
     """
     boundary = len(given.plan.complex.patches)
     extracted = [
@@ -67,6 +73,9 @@ def smoothly_drawn(
             )
         extracted = fewer
         near = smooth.points[np.unique(folded)]
+    if len(folded) > FOLDS * sum(len(found.triangles) for found in extracted):
+        at = smooth.points[folded[0]].mean(axis=0)
+        raise GeometryError(f"{len(folded)} triangles of walls stay folded, one at {{at}}", at=at)
     return replace(shown, complex=smooth)
 
 

@@ -157,10 +157,10 @@ class Extractor:
         for _ in range(MOST):
             groups: dict[tuple[int, ...], list[int]] = {}
             for vertex in left.tolist():
-                groups.setdefault(sites[vertex], []).append(vertex)
+                groups.setdefault(self._active(sites[vertex], start[vertex]), []).append(vertex)
             for own, members in groups.items():
                 rows = np.array(members, dtype=np.int64)
-                placed = self._placer.place(self._active(own, start[rows[0]]), start[rows])
+                placed = self._placer.place(own, start[rows])
                 good = placed.good & (norm(placed.points - start[rows]) <= FAR * reach[rows])
                 points[rows] = np.where(good[:, None], placed.points, start[rows])
                 radius[rows] = placed.radius

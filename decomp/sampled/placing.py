@@ -27,12 +27,16 @@ GOOD = 2e-13
 """Points at which they hold to this part of the size are placed."""
 RANK = 1e-7
 """Gradients that differ by less than this are equal."""
+NEARER = 1e-10
+"""A site that is nearer by this part of the size is nearer."""
 CHANGES = 3
 """So often it is asked which sites take over from one another."""
 NOWHERE = 1e-9
 """Points nearer to the boundary than this part of the size are on it."""
 APART = 0.1
-"""Feet farther apart than this part of the radius are two."""
+"""A point nearer to a face's axis than this part of the radius has no foot of its own on it."""
+FAR = 0.5
+"""Feet farther apart than this part of the radius are two, though a normal at each leads there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +63,7 @@ class Placer:
 
     def __init__(self, incidence: Incidence, queries: RegionQueries) -> None:
         self._it = incidence
+        self._queries = queries
         self._size = incidence.boundary.diagonal
         self.normals = Normals(incidence, queries)
 
@@ -120,7 +125,7 @@ class Placer:
                 continue
             for other in result:
                 at = feet[group.index(other[0])]
-                if float(norm(foot - at)) <= APART * radius:
+                if float(norm(foot - at)) <= FAR * radius:
                     other.append(column)
                     break
             else:
@@ -164,6 +169,17 @@ class Placer:
             return True
         on = self.normals.takes_over(*pair)
         return on and float(self.normals.slant(*pair, point[None])[0]) <= TIGHT
+
+    def meetings(self, sites: tuple[int, ...], point: Array, reach: float) -> Array:
+        """Points (k, 3) near one (3,) at which three of some sites meet and no other is nearer."""
+        found = []
+        for own in combinations(sites, 3):
+            placed = self.place(own, point[None])
+            if placed.good[0] and float(norm(placed.points[0] - point)) <= reach:
+                away = float(self._queries.nearest(placed.points).distance[0])
+                if abs(away - float(placed.radius[0])) <= NEARER * self._size:
+                    found.append(placed.points[0])
+        return np.array(found).reshape(-1, 3)
 
     def place_on_normals(self, sites: tuple[int, int], points: Array) -> Placed:
         """Move points (k, 3) to where one of two sites takes over from the other."""

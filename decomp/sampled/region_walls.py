@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+from scipy.spatial.distance import pdist  # type: ignore[import-untyped]
 
+from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.sampled.bisecting import Bisected
+from decomp.sampled.bisecting import EDGES, Bisected
 from decomp.sampled.extracted import Extracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior
@@ -19,12 +22,27 @@ from decomp.sampled.labels import Labeller
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.whole import RegionTools
 from decomp.tracing.queries import region_queries
-from decomp.vectors import Array, norm
+from decomp.vectors import Array, Ints, norm
 
-AGAIN = 7
-"""So often tetrahedra are refined around walls that cannot be placed,"""
-FINEST = 0.01
+AGAIN, PATIENCE = 8, 3
+"""So often tetrahedra are refined around walls that cannot be placed, and so often though there are
+no fewer then,"""
+FINEST = 0.002
 """to this part of the floor at the most."""
+CROWDED = 40_000
+"""Tetrahedra at most: more would take longer than they are worth."""
+SHORTER = 0.6
+"""Their edges become no longer than this part of what they were,"""
+FINER = 0.5
+"""and than this part of how far what meets there is apart,"""
+APART = 1e-3
+"""unless that is less than this part of them;"""
+MOST = 0.15
+"""nor less than this part of what they were at once;"""
+REACH = 0.3
+"""those around them are refined if they are nearer than this part of their own edges,"""
+HALVINGS = 40
+"""and all are halved so often at the most."""
 
 
 def region_walls(
@@ -62,9 +80,17 @@ def region_walls(
         labellers.append((number, labeller, refiner))
         known.append(labeller.labels(mesh, None))
     found = [Extracted.none()] * len(tools)
+    fewest, since = len(mesh.points), 0
     for left in reversed(range(AGAIN)):
         for k, (_, labeller, refiner) in enumerate(labellers):
             known[k] = refiner.refined(mesh, labeller.labels(mesh, known[k]), floor, chord)
+        if len(mesh.tets) > CROWDED:
+            lost = [walls.points[walls.lost] for walls in found]
+            at = next((places[0] for places in lost if len(places)), mesh.points[0])
+            raise GeometryError(
+                f"more than {CROWDED} tetrahedra would be needed to tell sites apart near {{at}}",
+                at=at,
+            )
         for k, (number, labeller, _) in enumerate(labellers):
             known[k] = labeller.labels(mesh, known[k])
             tool = tools[number]
@@ -75,25 +101,61 @@ def region_walls(
                 geometry.regions[number].diagonal,
             )
             found[number] = extractor.extracted(mesh, known[k], number)
-        if not left or not _refined_where_lost(mesh, found, floor):
+        many = sum(int(walls.lost.sum()) for walls in found)
+        since = 0 if many < fewest else since + 1
+        fewest = min(many, fewest)
+        if not left or since == PATIENCE or not _refined_where_lost(mesh, found, tools, floor):
             break
     return found
 
 
-def _refined_where_lost(mesh: Bisected, found: list[Extracted], floor: float) -> bool:
-    """Refine the tetrahedra in which walls could not be placed; whether there were any."""
-    wanted = np.zeros(len(mesh.tets), dtype=np.bool_)
+def _refined_where_lost(
+    mesh: Bisected, found: Sequence[Extracted], tools: Sequence[RegionTools], floor: float
+) -> bool:
+    """Refine the tetrahedra in which walls could not be placed; whether there were any.
+
+    They are made as fine as the points at which some of a vertex's sites truly meet are apart.
+    """
+    places, lengths = [np.empty((0, 3))], [np.empty(0)]
+    least = FINEST * floor
     for number, walls in enumerate(found):
         rows = np.flatnonzero(mesh.region == number)
-        if not len(walls.passed):
-            wanted[rows[walls.tet[walls.lost[walls.triangles].any(axis=1)]]] = True
-    corners = mesh.points[mesh.tets]
-    wanted &= norm(corners - corners[:, [1, 2, 3, 0]]).max(axis=1) > FINEST * floor
-    mesh.shorten(wanted)
-    return bool(wanted.any()) | _cut_through(mesh, found)
+        cut = {tuple(place) for place in walls.passing.tolist()}
+        for vertex in np.flatnonzero(walls.lost).tolist():
+            if tuple(walls.points[vertex].tolist()) in cut:
+                continue
+            own = np.unique(rows[walls.tet[(walls.triangles == vertex).any(axis=1)]])
+            longest = float(_longest(mesh, own).max(initial=0.0))
+            if longest <= least:
+                continue
+            point = walls.points[vertex]
+            near = tools[number].placer.meetings(walls.sites[vertex], point, longest)
+            apart = pdist(near)
+            wide = float(apart.min(initial=np.inf, where=apart > APART * longest))
+            least_now = max(least, MOST * longest)
+            asked = float(np.clip(FINER * wide, least_now, SHORTER * longest))
+            places += [point[None], near]
+            lengths.append(np.full(1 + len(near), asked))
+    at, length = np.concatenate(places), np.concatenate(lengths)
+    if len(at):
+        tree = cKDTree(at)
+        for _ in range(HALVINGS):
+            away, nearest = tree.query(mesh.points[mesh.tets].mean(axis=1))
+            every = _longest(mesh, np.arange(len(mesh.tets)))
+            wanted = (away <= REACH * every) & (every > length[nearest])
+            if not wanted.any():
+                break
+            mesh.shorten(wanted)
+    return bool(len(at)) | _cut_through(mesh, found)
 
 
-def _cut_through(mesh: Bisected, found: list[Extracted]) -> bool:
+def _longest(mesh: Bisected, tets: Ints) -> Array:
+    """The longest edge (k,) of some tetrahedra."""
+    corners = mesh.points[mesh.tets[tets]]
+    return np.asarray(norm(corners[:, EDGES[:, 0]] - corners[:, EDGES[:, 1]]).max(axis=1))
+
+
+def _cut_through(mesh: Bisected, found: Sequence[Extracted]) -> bool:
     """Put nodes into zones that edges lead through; whether there were any."""
     edges, which = mesh.edges()
     number = {(a, b): k for k, (a, b) in enumerate(edges.tolist())}

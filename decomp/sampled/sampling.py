@@ -40,7 +40,7 @@ from decomp.tetra.cells import site_owners
 from decomp.tetra.child import MeshingError, TimeLimit
 from decomp.traced_region import TracedRegion
 
-FLOORS = (12.0, 18.0, 27.0)
+FLOORS = (12.0, 18.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
 where the walls are close to the boundary."""
 COARSE = 2.0
@@ -54,7 +54,7 @@ LOOSEST = 8.0
 volumes, are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
-FILLING = 60.0
+FILLING = 30.0
 """Seconds that TetWild may compute in each try."""
 
 Progress = Callable[[str, float], None]

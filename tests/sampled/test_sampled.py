@@ -161,7 +161,7 @@ def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
         assert made.regions[0].certificate.chord_error <= stated
     else:
         with pytest.raises(GeometryError, match=r"is .*, allowed"):
-            _ = sampled_skeleton(rod, 5e-4, lambda what, done: None).skeleton
+            sampled_skeleton(rod, 5e-4, lambda what, done: None)
 
 
 def test_junctions_of_a_block_are_where_they_must_be() -> None:
