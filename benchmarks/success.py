@@ -2,9 +2,10 @@
 
 Parts of `benchmarks/parts.py`, as drawn or turned, with round sizes or not, designs at random, or
 all models in some folders. Each runs in a process of its own with a limit of computing. Printed is
-what became of them: certified (traced or sampled), meshed, meshed with a shortcoming in the check, refused (by stage and error), wrong, out
-of time, crashed; and how long it took. A volume is wrong if it is not that of points asked of the
-primitives one by one, and so are cells that do not fill their region.
+what became of them: certified (traced or sampled), meshed, meshed with what falls short in its
+check, refused (by stage and error), wrong, out of time, crashed; and how long it took. A volume is
+wrong if it is not that of points asked of the primitives one by one, and so are cells that do not
+fill their region.
 """
 
 from __future__ import annotations
