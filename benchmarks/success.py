@@ -2,9 +2,10 @@
 
 Parts of `benchmarks/parts.py`, as drawn or turned, with round sizes or not, designs at random, or
 all models in some folders. Each runs in a process of its own with a limit of computing. Printed is
-what became of them: certified (traced or sampled), meshed, refused (by stage and error), wrong, out
-of time, crashed; and how long it took. A volume is wrong if it is not that of points asked of the
-primitives one by one, and so are cells that do not fill their region.
+what became of them: certified (traced or sampled), meshed, meshed with what falls short in its
+check, refused (by stage and error), wrong, out of time, crashed; and how long it took. A volume is
+wrong if it is not that of points asked of the primitives one by one, and so are cells that do not
+fill their region.
 """
 
 from __future__ import annotations
@@ -32,9 +33,11 @@ from decomp.errors import GeometryError
 from decomp.formats import FORMATS
 from decomp.geometry import Geometry
 from decomp.medial.result import Method
+from decomp.tetra.check import check
 
 TRACED, SAMPLED, MESHED = "certified traced", "certified sampled", "meshed"
 REFUSED, WRONG, STOPPED, CRASHED = "refused", "wrong", "out of time", "crashed"
+SHORT = "falls short"
 GOOD = (TRACED, SAMPLED, MESHED)
 DEVIATIONS = 5.0
 """Standard errors that a volume may be off."""
@@ -63,8 +66,11 @@ def computed(source: Solid | Path, meshes: str | None, method: Any) -> dict[str,
     try:
         geometry = Geometry(source)
         if meshes is not None:
-            decomp.mesh(geometry, cells=meshes)  # type: ignore[arg-type]
+            mesh = decomp.mesh(geometry, cells=meshes)  # type: ignore[arg-type]
+            short = check(geometry, mesh).shortcomings
             what, odd = MESHED, wrong(geometry, {})
+            if short and not odd:
+                return {"what": SHORT, "why": f"{len(mesh.tets)} tets: {'; '.join(short)}"}
         else:
             found = decomp.skeleton(geometry, method=method)
             traced = all(region.method is Method.TRACED for region in found.regions)

@@ -11,6 +11,7 @@ from decomp.geometry import Geometry
 from decomp.sites.site import SiteKind
 from decomp.tetra.ball_walls import ball_walls
 from decomp.tetra.layout import samples
+from decomp.tetra.necks import narrowest
 from decomp.tetra.sheet_walls import reflexive_walls, sheet_walls
 from decomp.tetra.surface import MeshSurface
 from decomp.tetra.wall import FACING, Wall
@@ -32,6 +33,9 @@ OF_THIN, SLENDER = 0.15, 3.0
 as long: nothing holds such triangles off each other in between."""
 OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""
+OF_NECK, OF_ALL = 0.3, 0.1
+"""And at most the first part of the narrowest place of a face, but no less on its account than the
+second part of what it is else: over narrower ones TetWild may draw edges together."""
 WIDE = 30.0
 """Where a sheet ends in an edge at less than this angle (degrees) to the faces, epsilon is smaller:
 TetWild lets it end epsilon / sin(angle) before the edge."""
@@ -80,7 +84,7 @@ def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
 def fitting_epsilon(
     geometry: Geometry, surface: MeshSurface, epsilon: float, longest: float
 ) -> float:
-    """An epsilon, no larger than a given one, that thin walls and narrow gaps allow.
+    """An epsilon, no larger than a given one, that thin walls, narrow gaps and faces allow.
 
     Args:
         geometry: of the model.
@@ -92,6 +96,8 @@ def fitting_epsilon(
     thin = min(least_thickness(geometry, surface, number) for number in numbers)
     part = OF_THIN if longest > SLENDER * thin else OF_THICKNESS
     epsilon = min(epsilon, part * thin)
+    neck = min(narrowest(region, epsilon / OF_NECK) for region in geometry.regions)
+    epsilon = min(epsilon, max(OF_NECK * neck, OF_ALL * epsilon))
     while epsilon > LEAST * geometry.diagonal and has_gap(
         geometry, surface, epsilon / OF_THICKNESS
     ):

@@ -6,6 +6,8 @@ the lengths wanted in them: fine where these are short, and coarse in what is em
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
@@ -37,6 +39,9 @@ cube that its field is made in."""
 AROUND = 0.05
 """How far TetWild's box reaches beyond the model, in parts of its diagonal."""
 
+Slopes = Callable[[Array], Array]
+"""Points (k, 3) -> how much shorter lengths (k,) can be for each unit of way from there."""
+
 
 def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeField | None]:
     """The length TetWild begins with all over, and the field that refines the mesh then.
@@ -54,7 +59,9 @@ def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeF
     if is_uniform(wish) and not hollow:
         return longest, None
     low, high = _box(geometry, MARGIN)
-    points = octree_corners(low, float((high - low).max()), lengths)
+    slopes = _slopes(geometry)
+    least = float(wish.lengths.min())
+    points = octree_corners(low, float((high - low).max()), lengths, slopes, least)
     bounded = np.minimum(lengths(points), max(longest, WIDEST * geometry.diagonal))
     field = SizeField(points, delaunay(points), bounded)
     return float(field.sizes.max()) if hollow else longest, field
@@ -76,6 +83,11 @@ def _joined(geometry: Geometry, wish: Wishes, sizes: Array) -> Lengths:
     return lengths
 
 
+def _slopes(geometry: Geometry) -> Slopes:
+    """Outside lengths grow faster."""
+    return lambda points: np.where(geometry.index.region_of(points) < 0, STEEP, SLOPE)
+
+
 def is_uniform(wish: Wishes) -> bool:
     """Whether all lengths are about the same."""
     return bool(wish.lengths.max() <= UNIFORM * wish.lengths.min())
@@ -88,13 +100,17 @@ def is_hollow(geometry: Geometry, lengths: Lengths, longest: float, seed: int = 
     return HOLLOW * share < 1
 
 
-def octree_corners(low: Array, width: float, lengths: Lengths, seed: int = 0) -> Array:
+def octree_corners(
+    low: Array, width: float, lengths: Lengths, slopes: Slopes, least: float, seed: int = 0
+) -> Array:
     """The corners (n, 3) of cells that are about as wide as lengths in them, a little shaken.
 
     Args:
         low: (3,) the lowest corner of the whole.
         width: of the whole.
-        lengths: wanted; inside they grow by `SLOPE` for each unit of way at most.
+        lengths: wanted.
+        slopes: they grow by.
+        least: of them all. A cell's middle can be far from a slender model that passes it.
         seed: of the shaking.
     """
     cells = np.zeros((1, 3), dtype=np.int64)
@@ -102,9 +118,10 @@ def octree_corners(low: Array, width: float, lengths: Lengths, seed: int = 0) ->
     depth = 0
     while len(cells):
         step = width / 2**depth
-        found = lengths(low + (cells + 0.5) * step)
-        wide = step > WIDTH * np.maximum(found - SLOPE * step * np.sqrt(3) / 2, 0)
-        wide &= (step > WIDTH * float(found.min())) & (depth < DEEPEST)
+        middles = low + (cells + 0.5) * step
+        shortest = lengths(middles) - slopes(middles) * step * np.sqrt(3) / 2
+        wide = step > WIDTH * np.maximum(shortest, least)
+        wide &= depth < DEEPEST
         scale = 2 ** (DEEPEST - depth)
         corners.append(((cells[~wide][:, None] + CORNERS) * scale).reshape(-1, 3))
         cells = (2 * cells[wide][:, None] + CORNERS).reshape(-1, 3)

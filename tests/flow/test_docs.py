@@ -20,7 +20,8 @@ PAGES = {
     "index.md": (1, "bearing.msh"),
     "mesh.md": (
         15,
-        "around.msh graded.msh part.geo part.msh part.vtu plain.msh fields.vtu made named.msh names.toml",
+        "around.msh graded.msh part.geo part.msh part.vtu plain.msh fields.vtu made named.msh "
+        "names.toml",
     ),
     "theory.md": (1, ""),
     "tutorial.md": (8, "blind_hole.msh blind_hole.png blind_hole.html pipe.geo pipe.vtu"),

@@ -84,7 +84,9 @@ def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
 
 def test_cells_are_small_where_lengths_are() -> None:
     wish = joined([(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]), UNKNOWN)])
-    corners = octree_corners(np.full(3, -2.0), 14.0, wish.at)
+    corners = octree_corners(
+        np.full(3, -2.0), 14.0, wish.at, lambda places: np.full(len(places), SLOPE), 0.1
+    )
     assert corners.min() == pytest.approx(-2, abs=0.01)
     assert corners.max() == pytest.approx(12, abs=0.01)
     near, far = (
@@ -93,6 +95,20 @@ def test_cells_are_small_where_lengths_are() -> None:
     )
     assert 0.03 < near < WIDTH * 0.1 * 1.1
     assert near < 0.3 * far
+
+
+def test_a_field_finds_a_slender_model() -> None:
+    """The middle of its box is far from a bar along one of the box's edges, as from a flat one."""
+    for size in ((600, 8, 1), (600, 8, 40)):
+        bar = decomp.Block((-300, -4, 0), size, name="bar")
+        geometry, surface = surface_of(bar)
+        wanted = Wanted(size=2.0)
+        wish = wishes(geometry, surface, wanted)
+        _, field = sizing(geometry, wish, region_sizes(geometry, wanted))
+        assert field is not None
+        places = (-300, -4, 0) + np.random.default_rng(0).uniform(size=(500, 3)) * size
+        found = griddata(field.points, field.sizes, places)
+        assert (found < 1.7 * wish.at(places)).all()
 
 
 def test_what_is_empty_is_coarse() -> None:
