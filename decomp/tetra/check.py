@@ -24,6 +24,7 @@ from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.paths import path_of
 from decomp.places import place
+from decomp.shown import Shown
 from decomp.tetra.about import about
 from decomp.tetra.check_cells import KnownCells, cells_named
 from decomp.tetra.check_groups import group_shortcomings
@@ -48,7 +49,7 @@ REACH = 2.0
 
 
 @dataclass(frozen=True)
-class Checked:
+class Checked(Shown):
     """What was found.
 
     Args:

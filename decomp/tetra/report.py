@@ -10,6 +10,7 @@ import numpy as np
 
 from decomp.csg.model import Ignored
 from decomp.near import listed
+from decomp.shown import Shown
 from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.tetra.pieces import whole_name
@@ -22,7 +23,7 @@ PLURALS = {"vertex": "vertices"}
 
 
 @dataclass(frozen=True)
-class Volume:
+class Volume(Shown):
     """A region or a cell.
 
     Args:
@@ -54,7 +55,7 @@ class Volume:
 
 
 @dataclass(frozen=True)
-class Surface:
+class Surface(Shown):
     """A group of triangles.
 
     Args:
@@ -74,7 +75,7 @@ class Surface:
 
 
 @dataclass(frozen=True)
-class Written:
+class Written(Shown):
     """A group as files have it.
 
     Args:
@@ -114,7 +115,7 @@ class Quality:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Shown):
     """A mesh in figures.
 
     Args:
