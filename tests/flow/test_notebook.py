@@ -27,14 +27,15 @@ def test_the_notebook(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         for cell in book.cells
         if cell.cell_type == "code"
     ]
-    geometry, flange, mesh, summary, names, again, picture = shown
-    assert geometry["text/plain"].startswith("<Geometry model: regions (flange, gasket), faces 13")
-    assert '<td style="text-align:left">gasket</td>' in geometry["text/html"]
-    assert "'bolt#4.side'" in flange["said"] and "<b>RegionBoundary</b>" in flange["text/html"]
-    assert "volumes (flange, gasket)" in mesh["text/plain"]
+    geometry, bracket, mesh, summary, names, again, picture = shown
+    assert geometry["text/plain"].startswith("<Geometry model: regions (bracket, pad), faces 14,")
+    assert '<td style="text-align:left">pad</td>' in geometry["text/html"]
+    assert "'bolt#2.side'" in bracket["said"]
+    assert "<b>RegionBoundary</b>" in bracket["text/html"]
+    assert "volumes (bracket, pad)" in mesh["text/plain"]
     assert '<td style="text-align:left">bolts</td>' in mesh["text/html"]
-    assert "  group bolts: flange/bolt#1.side, " in summary["said"]
-    assert "gasket/ring.top interface" in names["said"].splitlines()[-1]
+    assert "  group bolts: bracket/bolt#1.side, " in summary["said"]
+    assert "pad/pad.zmax interface" in names["said"].splitlines()[-1]
     assert again["said"] == "True\nTrue ()\n"
     assert len(picture["image/png"]) > 10_000
-    assert (tmp_path / "flange.msh").exists()
+    assert (tmp_path / "bracket.msh").exists()
