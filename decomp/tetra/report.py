@@ -308,7 +308,8 @@ def as_text(found: Report) -> list[str]:
     lines += [
         f"  group {group.name}: {listed(group.members)}"
         for group in found.groups
-        if group.members and {whole_name(each) for each in group.members} != {group.name}
+        if group.members
+        and (group.dimension == 3 or set(map(whole_name, group.members)) != {group.name})
     ]
     lines += [
         f"  cell {cell.name}: {', '.join(cell.faces)}"

@@ -257,6 +257,21 @@ def test_what_cannot_be(fault: str) -> None:
     assert fault == "taken" or not told
 
 
+def test_pieces_of_a_plane() -> None:
+    """A plane's face is called as the plane is; here a trench parts it into two."""
+    low = decomp.HalfSpace((0, 0, 1), (0, 0, 1), name="top")
+    box = decomp.Block((0, 0, 0), (3, 2, 2), name="box")
+    trench = decomp.Block((1, -1, 0.5), (1, 4, 2), name="trench")
+    part = decomp.Geometry({"part": (box & low) - trench})
+    made = decomp.mesh(part, size=1, cells="none")
+    assert made.group("part/top").members == ("part/top", "part/top@2")
+    assert area(made, "part/top") == pytest.approx(4, rel=1e-12)
+    assert check(part, made).shortcomings == ()
+    assert area(made.grouped(groups={"lid": "*/top"}), "lid") == pytest.approx(4, rel=1e-12)
+    with pytest.raises(InputError, match=r"none of the regions; '\*/top' stands for faces"):
+        made.grouped(groups={"lid": "top"})
+
+
 def test_what_a_mesh_without_cells_has_not() -> None:
     block = decomp.Block((0, 0, 0), (1, 1, 1))
     for options in ({"volumes": "cells"}, {"sheets": True}):
