@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-MOST, LIKE = 3, 0.6
+MOST, LIKE = 3, 0.7
 """So many names are suggested, and they are at least so like (1 is the same)."""
 
 

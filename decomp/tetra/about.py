@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import Any
 
+from decomp.shown import Shown
 from decomp.tetra.group import Group, GroupKind
 from decomp.tetra.mesh import TetMesh
 
@@ -19,7 +20,7 @@ KEYS = ("groups", "regions", "cells", "surfaces")
 
 
 @dataclass(frozen=True)
-class About:
+class About(Shown):
     """All of a mesh but its elements.
 
     Args:

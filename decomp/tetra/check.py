@@ -24,6 +24,7 @@ from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.paths import path_of
 from decomp.places import place
+from decomp.shown import Shown
 from decomp.tetra.about import about
 from decomp.tetra.check_cells import KnownCells, cells_named
 from decomp.tetra.check_groups import group_shortcomings
@@ -49,12 +50,14 @@ REACH = 2.0
 
 
 @dataclass(frozen=True)
-class Checked:
+class Checked(Shown):
     """What was found.
 
     Args:
         shortcomings: one line each; none if the mesh is right.
-        tets, nodes, groups: how many it has.
+        tets: how many it has.
+        nodes: how many it has.
+        groups: how many it has.
         volume_error: the largest of a region, relative.
         chord_error: the largest part of it that straight edges of their length explain.
         unexplained_error: the largest that is left without that.

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from decomp.shown import Shown
+
 
 class GroupKind(Enum):
     """What a group is: of tetrahedra, triangles, edges of triangles, or nodes."""
@@ -25,7 +27,7 @@ NOUNS = {3: "volume", 2: "surface", 1: "curve", 0: "point"}
 
 
 @dataclass(frozen=True)
-class Group:
+class Group(Shown):
     """A named set of elements, written as a physical group; or one of the parts that these join.
 
     Args:

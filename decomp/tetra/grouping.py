@@ -238,9 +238,11 @@ def standing_for(
         if own:
             return dimension, [u.name for u in units if u.name in own]
     names = [u.name for dimension in asked for u in there[dimension]]
+    hint = near(pattern, names) or f"; there are {listed(names)}"
+    if asked == (3,) and matching(f"*/{pattern}", ((u.name, u.kind) for u in there[2])):
+        hint = f"; '*/{pattern}' stands for faces"
     raise InputError(
-        f"{pattern!r} of group {group!r} stands for none of the {WHAT[asked[0]]}"
-        f"{near(pattern, names) or f'; there are {listed(names)}'}"
+        f"{pattern!r} of group {group!r} stands for none of the {WHAT[asked[0]]}{hint}"
     )
 
 

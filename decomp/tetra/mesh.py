@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from decomp.shown import Shown
+from decomp.tetra.group import NOUNS
 from decomp.tetra.group import Group as Group
 from decomp.tetra.group import GroupKind as GroupKind
 from decomp.tetra.group_names import named, selected
@@ -42,7 +44,7 @@ class FoundBy:
 
 
 @dataclass(frozen=True, eq=False)
-class TetMesh:
+class TetMesh(Shown):
     """A conforming mesh. Every tetrahedron, and every other element, is in exactly one group.
 
     What it is made of at the finest, `parts`, stays whatever groups are made of it: `grouped`
@@ -116,6 +118,51 @@ class TetMesh:
         if self.parts is None or self.part_rows is None:
             return self.triangle_tags
         return self.parts.of_triangles[self.part_rows]
+
+    def _facts(self) -> Mapping[str, Any]:
+        kinds = {3: "volumes", 2: "surfaces", 1: "curves", 0: "points"}
+        counts = {
+            what: tuple(g.name for g in self.groups if g.dimension == d) or None
+            for d, what in kinds.items()
+        }
+        return {
+            "name": self.name,
+            "nodes": len(self.points),
+            "tetrahedra": len(self.tets),
+            "order": self.order,
+            "cells": len(self.all_parts.cells) or None,
+            **counts,
+            "fields": (*self.point_data, *self.cell_data) or None,
+        }
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[Any]]]:
+        tags = (self.node_tags, self.line_tags, self.triangle_tags, self.tet_tags)
+        rows = (
+            (g.name, NOUNS[g.dimension], g.tag, int((tags[g.dimension] == g.tag).sum()))
+            for g in self.groups
+        )
+        return ("group", "of", "tag", "elements"), rows
+
+    def summary(self) -> str:
+        """What `decomp mesh` prints: counts, volumes, lengths of edges, groups, quality."""
+        from decomp.tetra.report import as_text, report
+
+        return "\n".join(as_text(report(self)))
+
+    def plot(self, scalars: str = "group", **options: Any) -> Any:
+        """Show it with PyVista, in a window or in a notebook.
+
+        Args:
+            scalars: what it is coloured by: `group`, `region`, `cell`, or a field.
+            options: of `pyvista.DataSet.plot`, such as `off_screen`, `screenshot`, `cpos`.
+
+        Raises:
+            InputError: there are no such values.
+            MissingPackageError: pyvista is not installed.
+        """
+        from decomp.view.plot import plot_mesh
+
+        return plot_mesh(self, scalars, options)
 
     def group(self, name: str, dimension: int | None = None) -> Group:
         """The group of a name.

@@ -13,6 +13,7 @@ import numpy as np
 
 from decomp.errors import FileError
 from decomp.magnitude import LARGEST
+from decomp.shown import Shown
 from decomp.tetra.about import About
 from decomp.tetra.msh_data import read_data
 from decomp.tetra.msh_sections import Numbers, Sections, sections
@@ -27,7 +28,7 @@ NONE, SEVERAL = 0, -1
 
 
 @dataclass(frozen=True, eq=False)
-class ReadMesh:
+class ReadMesh(Shown):
     """A mesh as a file has it.
 
     Args:

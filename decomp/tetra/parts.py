@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from decomp.shown import Shown
 from decomp.tetra.group import Group, GroupKind
 from decomp.vectors import Array, Ints
 
 
 @dataclass(frozen=True, eq=False)
-class Parts:
+class Parts(Shown):
     """Regions and cells of tetrahedra, and faces, interfaces and sheets of triangles.
 
     Args:

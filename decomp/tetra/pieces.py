@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-NUMBERED = re.compile(r"(\.[^.@|/&]+)@\d+(?=$|[|&])")
+NUMBER = re.compile(r"@\d+(?=$|[|&])")
 
 
 def whole_name(name: str) -> str:
     """The name of a face, interface, edge or vertex without the numbers of pieces."""
-    return NUMBERED.sub(r"\1", name)
+    return NUMBER.sub("", name)

@@ -11,6 +11,7 @@ import numpy as np
 from decomp.csg.model import Ignored
 from decomp.medial.result import Method
 from decomp.near import listed
+from decomp.shown import Shown
 from decomp.tetra.deciding import Decider, deciders
 from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
@@ -24,7 +25,7 @@ PLURALS = {"vertex": "vertices"}
 
 
 @dataclass(frozen=True)
-class Volume:
+class Volume(Shown):
     """A region or a cell.
 
     Args:
@@ -62,7 +63,7 @@ class Volume:
 
 
 @dataclass(frozen=True)
-class Surface:
+class Surface(Shown):
     """A group of triangles.
 
     Args:
@@ -82,7 +83,7 @@ class Surface:
 
 
 @dataclass(frozen=True)
-class Written:
+class Written(Shown):
     """A group as files have it.
 
     Args:
@@ -122,15 +123,18 @@ class Quality:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Shown):
     """A mesh in figures.
 
     Args:
         model: its name.
         order: of the elements.
-        nodes, tets, triangles: how many.
+        nodes: how many.
+        tets: how many.
+        triangles: how many.
         groups: that are written.
-        regions, cells: of the model, whatever is written.
+        regions: of the model, whatever is written.
+        cells: likewise.
         surfaces: that are written.
         edges: of all tetrahedra.
         quality: of the tetrahedra.
@@ -322,7 +326,8 @@ def as_text(found: Report) -> list[str]:
     lines += [
         f"  group {group.name}: {listed(group.members)}"
         for group in found.groups
-        if group.members and {whole_name(each) for each in group.members} != {group.name}
+        if group.members
+        and (group.dimension == 3 or set(map(whole_name, group.members)) != {group.name})
     ]
     lines += [
         f"  cell {cell.name}: {', '.join(cell.faces)}"

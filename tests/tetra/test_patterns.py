@@ -72,7 +72,8 @@ def test_single_faces_of_a_pattern() -> None:
         ("sink/base.zmax@2|chip/chip.zmin@3", "sink/base.zmax|chip/chip.zmin"),
         ("sink/base.zmax@2&fin.xmin", "sink/base.zmax&fin.xmin"),
         ("sink/a@2.zmax", "sink/a@2.zmax"),
-        ("a@2", "a@2"),
+        ("sink/left@2", "sink/left"),
+        ("left@3&base.zmax@2", "left&base.zmax"),
         ("sink/bolt#2.side", "sink/bolt#2.side"),
     ],
 )
