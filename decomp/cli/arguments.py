@@ -7,6 +7,19 @@ from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 
+STDIN, STDOUT = Path("/dev/stdin"), Path("/dev/stdout")
+"""What `-` stands for: a model to read, whose first words tell its format, or a file to write."""
+
+
+def input_path(text: str) -> Path:
+    """A file to read; `-` is stdin."""
+    return STDIN if text == "-" else Path(text)
+
+
+def output_path(text: str) -> Path:
+    """A file to write; `-` is stdout."""
+    return STDOUT if text == "-" else Path(text)
+
 
 def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: str = "") -> None:
     """Add -o, which may be given several times.
@@ -19,11 +32,12 @@ def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: s
     parser.add_argument(
         "-o",
         "--output",
-        type=Path,
+        type=output_path,
         action="append",
         default=[],
         metavar="OUT",
-        help=f"file to write, ending in {', '.join(suffixes)}; may be given several times{more}",
+        help=f"file to write, ending in {', '.join(suffixes)}, or - for stdout ({suffixes[0]}); "
+        f"may be given several times{more}",
     )
 
 

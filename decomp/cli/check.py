@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import positive
+from decomp.cli.arguments import input_path, positive
 from decomp.cli.models import FILES, add_outside, model_of
 from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
@@ -29,7 +29,7 @@ def register(commands: Any) -> None:
         "surfaces, no tetrahedron across an interface. Each shortcoming is told in a line; if "
         "there is any, the exit code is 1.",
     )
-    parser.add_argument("model", type=Path, help=FILES)
+    parser.add_argument("model", type=input_path, help=FILES)
     parser.add_argument("mesh", type=Path, help="Gmsh .msh")
     parser.add_argument(
         "--epsilon",

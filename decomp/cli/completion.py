@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Any
+
+from decomp.cli.arguments import input_path, output_path
 
 SHELLS = ("bash", "zsh", "tcsh")
 
@@ -46,5 +49,5 @@ def _complete_files(parser: argparse.ArgumentParser) -> None:
         if isinstance(action, argparse._SubParsersAction):
             for command in action.choices.values():
                 _complete_files(command)
-        elif getattr(action.type, "__name__", "") == "Path":
+        elif action.type in (Path, input_path, output_path):
             action.complete = shtab.FILE  # type: ignore[attr-defined]

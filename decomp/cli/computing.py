@@ -7,9 +7,9 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from math import isfinite
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from decomp.cli.arguments import input_path
 from decomp.cli.models import FILES, add_outside, model_of
 from decomp.plain import plain
 
@@ -22,7 +22,7 @@ LARGEST = 0.1
 
 def add_options(parser: argparse.ArgumentParser, files: str = FILES) -> None:
     """The options that say which skeleton to compute, and how loudly."""
-    parser.add_argument("model", type=Path, help=files)
+    parser.add_argument("model", type=input_path, help=files)
     parser.add_argument(
         "--tolerance",
         type=_tolerance,

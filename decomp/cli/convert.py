@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
+from decomp.cli.arguments import input_path, output_path
 from decomp.cli.models import FILES, add_outside, model_of
 
 
@@ -17,8 +17,8 @@ def register(commands: Any) -> None:
         description="Read a CSG model and write it as decomp JSON, which keeps every model "
         "exactly: its tree, names, transforms and options.",
     )
-    parser.add_argument("model", type=Path, help=FILES)
-    parser.add_argument("output", type=Path, help="file to write, ending in .json")
+    parser.add_argument("model", type=input_path, help=FILES)
+    parser.add_argument("output", type=output_path, help="file to write, ending in .json, or -")
     add_outside(parser)
     parser.set_defaults(run=run)
 

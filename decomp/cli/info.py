@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.arguments import input_path
 from decomp.cli.models import FILES, add_outside, model_of
 from decomp.cli.printed import complain
 from decomp.cli.said import say
@@ -31,7 +32,7 @@ def register(commands: Any) -> None:
     )
     parser.add_argument(
         "models",
-        type=Path,
+        type=input_path,
         nargs="+",
         metavar="MODEL",
         help=FILES,

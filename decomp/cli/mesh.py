@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import add_output, positive
+from decomp.cli.arguments import STDOUT, add_output, input_path, positive
 from decomp.cli.groups import all_groups, named_patterns
 from decomp.cli.models import add_outside, model_of
 from decomp.cli.said import say
@@ -49,7 +49,7 @@ def register(commands: Any) -> None:
     )
     parser.add_argument(
         "models",
-        type=Path,
+        type=input_path,
         nargs="+",
         metavar="MODEL",
         help="Netgen .geo, OpenSCAD .csg or decomp .json; of several, -o names a directory",
@@ -253,7 +253,8 @@ def run(options: argparse.Namespace) -> None:
 
         write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
-        say([*as_text(figures), f"  written: {', '.join(str(path) for path in outputs)}"])
+        lines = [*as_text(figures), f"  written: {', '.join(str(path) for path in outputs)}"]
+        say(lines, to_errors=STDOUT in outputs)
 
 
 def _as_bytes(values: dict[str, Any]) -> bytes:

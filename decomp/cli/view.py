@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import add_output
+from decomp.cli.arguments import STDOUT, add_output
 from decomp.cli.said import say
 from decomp.errors import InputError
 
@@ -54,8 +54,9 @@ def run(options: argparse.Namespace) -> None:
         show(scene)
     elif not options.quiet:
         regions = [] if skeleton is None else skeleton.regions
-        say([f"written: {', '.join(str(path) for path in options.output)}"])
-        say(line for region in regions for line in method_text(region))
+        lines = [f"written: {', '.join(str(path) for path in options.output)}"]
+        lines += [line for region in regions for line in method_text(region)]
+        say(lines, to_errors=STDOUT in options.output)
 
 
 def show(scene: Scene) -> None:

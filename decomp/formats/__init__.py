@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 from decomp.errors import FileError, InputError, ParseError
 from decomp.files.suffixes import known_suffix
-from decomp.files.targets import check_outputs, reason
+from decomp.files.targets import check_outputs, is_stream, reason
 from decomp.files.whole_file import write_whole
 from decomp.formats.foreign import advice
 from decomp.paths import path_of
@@ -136,12 +136,13 @@ def _bytes(file: Path) -> bytes:
             raise FileError("this is a directory; give the name of a model file", file)
         if not file.exists():
             raise FileError("no such file", file)
-        if not file.is_file():
+        if not file.is_file() and not is_stream(file):
             raise FileError("this is no regular file; give the name of a model file", file)
-        size = file.stat().st_size
-        if size > MAX_BYTES:
-            raise FileError(f"the file has {size:,} bytes; at most {MAX_BYTES:,} are read", file)
-        return file.read_bytes()
+        with file.open("rb") as stream:
+            found = stream.read(MAX_BYTES + 1)
+        if len(found) > MAX_BYTES:
+            raise FileError(f"the file has more than {MAX_BYTES:,} bytes, which is the most", file)
+        return found
     except (OSError, ValueError) as error:
         raise FileError(f"cannot be read: {reason(error)}", file) from None
 

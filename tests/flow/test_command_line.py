@@ -140,3 +140,18 @@ def test_a_shell_completes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     script.write_text(capsys.readouterr().out + ask)
     done = subprocess.run(["bash", str(script)], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["--layers"]
+
+
+def test_from_stdin_to_stdout(tmp_path: Path) -> None:
+    """The model comes through a pipe, and so goes the mesh; what is said goes to stderr."""
+    model = (MESHES / "block.geo").read_bytes()
+    convert = [sys.executable, "-m", "decomp", "convert", "-", "-"]
+    as_json = subprocess.run(convert, input=model, capture_output=True, check=True).stdout
+    assert json.loads(as_json)["regions"][0]["name"] == "block"
+    words = ["mesh", "-", "--cells", "none", "--size", "1", "-o", "-"]
+    command = [sys.executable, "-m", "decomp", *words]
+    done = subprocess.run(command, input=as_json, capture_output=True, check=True)
+    assert done.stdout.startswith(b"$MeshFormat\n4.1 1 8\n")
+    assert b"region block" in done.stderr
+    (tmp_path / "block.msh").write_bytes(done.stdout)
+    assert main(["check", str(MESHES / "block.geo"), str(tmp_path / "block.msh")]) == 0
