@@ -6,8 +6,6 @@ the lengths wanted in them: fine where these are short, and coarse in what is em
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
@@ -39,9 +37,6 @@ cube that its field is made in."""
 AROUND = 0.05
 """How far TetWild's box reaches beyond the model, in parts of its diagonal."""
 
-Slopes = Callable[[Array], Array]
-"""Points (k, 3) -> how much shorter lengths (k,) can be for each unit of way from there."""
-
 
 def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeField | None]:
     """The length TetWild begins with all over, and the field that refines the mesh then.
@@ -59,9 +54,8 @@ def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeF
     if is_uniform(wish) and not hollow:
         return longest, None
     low, high = _box(geometry, MARGIN)
-    slopes = _slopes(geometry)
     least = float(wish.lengths.min())
-    points = octree_corners(low, float((high - low).max()), lengths, slopes, least)
+    points = octree_corners(low, float((high - low).max()), lengths, least)
     bounded = np.minimum(lengths(points), max(longest, WIDEST * geometry.diagonal))
     field = SizeField(points, delaunay(points), bounded)
     return float(field.sizes.max()) if hollow else longest, field
@@ -83,11 +77,6 @@ def _joined(geometry: Geometry, wish: Wishes, sizes: Array) -> Lengths:
     return lengths
 
 
-def _slopes(geometry: Geometry) -> Slopes:
-    """Outside lengths grow faster."""
-    return lambda points: np.where(geometry.index.region_of(points) < 0, STEEP, SLOPE)
-
-
 def is_uniform(wish: Wishes) -> bool:
     """Whether all lengths are about the same."""
     return bool(wish.lengths.max() <= UNIFORM * wish.lengths.min())
@@ -101,15 +90,14 @@ def is_hollow(geometry: Geometry, lengths: Lengths, longest: float, seed: int = 
 
 
 def octree_corners(
-    low: Array, width: float, lengths: Lengths, slopes: Slopes, least: float, seed: int = 0
+    low: Array, width: float, lengths: Lengths, least: float, seed: int = 0
 ) -> Array:
     """The corners (n, 3) of cells that are about as wide as lengths in them, a little shaken.
 
     Args:
         low: (3,) the lowest corner of the whole.
         width: of the whole.
-        lengths: wanted.
-        slopes: they grow by.
+        lengths: wanted; inside they grow by `SLOPE` for each unit of way at most.
         least: of them all. A cell's middle can be far from a slender model that passes it.
         seed: of the shaking.
     """
@@ -119,7 +107,7 @@ def octree_corners(
     while len(cells):
         step = width / 2**depth
         middles = low + (cells + 0.5) * step
-        shortest = lengths(middles) - slopes(middles) * step * np.sqrt(3) / 2
+        shortest = lengths(middles) - SLOPE * step * np.sqrt(3) / 2
         wide = step > WIDTH * np.maximum(shortest, least)
         wide &= depth < DEEPEST
         scale = 2 ** (DEEPEST - depth)

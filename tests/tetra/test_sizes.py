@@ -84,9 +84,7 @@ def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
 
 def test_cells_are_small_where_lengths_are() -> None:
     wish = joined([(np.array([[0.0, 0, 0], [10, 0, 0]]), np.array([0.1, 2.0]), UNKNOWN)])
-    corners = octree_corners(
-        np.full(3, -2.0), 14.0, wish.at, lambda places: np.full(len(places), SLOPE), 0.1
-    )
+    corners = octree_corners(np.full(3, -2.0), 14.0, wish.at, 0.1)
     assert corners.min() == pytest.approx(-2, abs=0.01)
     assert corners.max() == pytest.approx(12, abs=0.01)
     near, far = (
