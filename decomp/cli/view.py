@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> None:
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
     from decomp.view import image, page
-    from decomp.view.scene import MODELS, scene_of
+    from decomp.view.reading import MODELS, scene_of
 
     suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
     check_outputs(options.output, [options.model])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -88,12 +89,14 @@ class Sections:
         path: of the file.
         version: of the format.
         names: of the physical groups, by dimension and tag.
+        data: the kind (`NodeData` or `ElementData`) and body of each field.
         binary: whether numbers are binary, else text.
     """
 
     path: str | Path
     version: float
     names: dict[tuple[int, int], str]
+    data: tuple[tuple[str, bytes], ...]
     _bodies: dict[str, bytes]
     binary: bool
     _swapped: bool
@@ -110,6 +113,17 @@ class Sections:
             return Numbers(self._bodies[name], self.binary, self._swapped, self.path)
         except ValueError:
             raise FileError(f"section ${name} holds what is no number", self.path) from None
+
+    def body_numbers(self, body: bytes) -> Numbers:
+        """The numbers of a part of a section.
+
+        Raises:
+            FileError: it holds what is none.
+        """
+        try:
+            return Numbers(body, self.binary, self._swapped, self.path)
+        except ValueError:
+            raise FileError("a field holds what is no number", self.path) from None
 
     def has(self, name: str) -> bool:
         """Whether the file has a section."""
@@ -134,9 +148,12 @@ def sections(path: str | Path) -> Sections:
         raise FileError(f"numbers of {head[3].decode()} bytes are not read, only of 8", path)
     one = data[head.end() : head.end() + 4]
     swapped = binary and np.frombuffer(one.ljust(4, b"\0"), "i4")[0] != 1
-    bodies = _bodies(data, path)
-    names = read_names(bodies.get("PhysicalNames", b""), bodies.get("Comments", b""))
-    return Sections(path, float(head[1]), names, bodies, binary, bool(swapped))
+    found = list(_bodies(data, path))
+    bodies = dict(found)
+    comments = b"\n".join(body for name, body in found if name == "Comments")
+    names = read_names(bodies.get("PhysicalNames", b""), comments)
+    fields = tuple(each for each in found if each[0] in ("NodeData", "ElementData"))
+    return Sections(path, float(head[1]), names, fields, bodies, binary, bool(swapped))
 
 
 def _words(body: bytes) -> NDArray[np.float64]:
@@ -154,12 +171,11 @@ def _words(body: bytes) -> NDArray[np.float64]:
             raise ValueError(str(error)) from None
 
 
-def _bodies(data: bytes, path: str | Path) -> dict[str, bytes]:
-    """The bytes between $Name and $EndName, each on a line of its own; of two sections, the last.
+def _bodies(data: bytes, path: str | Path) -> Iterator[tuple[str, bytes]]:
+    """The names and bytes between $Name and $EndName, each on a line of its own.
 
     A name of a group may hold such a mark, in quotes.
     """
-    result: dict[str, bytes] = {}
     at = 0
     mark = re.compile(rb"^[ \t]*\$([A-Za-z]\w*)[ \t]*\r?\n", re.MULTILINE)
     while (start := mark.search(data, at)) is not None:
@@ -168,6 +184,5 @@ def _bodies(data: bytes, path: str | Path) -> dict[str, bytes]:
         end = re.compile(closing, re.MULTILINE).search(data, start.end())
         if end is None:
             raise FileError(f"section ${name.decode()} has no end", path)
-        result[name.decode()] = data[start.end() : end.start()]
+        yield name.decode(), data[start.end() : end.start()]
         at = end.end()
-    return result

@@ -1,9 +1,8 @@
-"""`decomp view`: the page in headless Chromium, the image, what cannot be viewed."""
+"""`decomp view`: scenes of files, the image, the window, what cannot be viewed."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,12 @@ import pytest
 
 from decomp.cli.main import main
 from decomp.output import write
-from decomp.view import page
-from decomp.view.colours import CATEGORIES, rgb
-from decomp.view.scene import scene_of
-from tests import browser as browsers
+from decomp.tetra.incidence import faces_of
+from decomp.view import of_mesh, page
+from decomp.view.colouring import colouring
+from decomp.view.colours import CATEGORIES, PALETTE, rgb, spread
+from decomp.view.reading import scene_of
+from decomp.view.scene import Body
 from tests.mesh_output.shapes import bar
 from tests.skeleton_fixtures import block
 
@@ -24,7 +25,8 @@ def test_parts_of_each_kind_of_file(tmp_path: Path) -> None:
     model = scene_of(tmp_path / "block.geo", block().skeleton)
     count = {g: sum(p.group == g for p in model.parts) for g in ("sheet", "cell", "face")}
     assert count == {"sheet": 13, "cell": 6, "face": 6}
-    assert max(float(part.value.max()) for part in model.parts) == pytest.approx(1.0)
+    (radius,) = model.fields
+    assert float(radius.values.max()) == pytest.approx(1.0)
     bar().write(tmp_path / "bar.msh")
     mesh = scene_of(tmp_path / "bar.msh")
     assert [p.name for p in mesh.parts if p.group == "cell"] == [
@@ -123,82 +125,47 @@ def test_names_cannot_break_out_of_the_page(tmp_path: Path) -> None:
     text = page.encoded(bad).decode()
     assert "</script><" not in text.split('id="data"')[1].split("</script>")[0]
     assert "\\u003c/script>" in text
-    assert "<title>&lt;/title>" in text
+    assert "<title>&lt;/title&gt;" in text
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with browsers.launched("--use-gl=angle", "--use-angle=swiftshader") as chromium:
-        yield chromium
+def test_the_hull_of_some_tetrahedra() -> None:
+    """What is between them and all else, each face once, and pointing out."""
+    mesh = bar()
+    neighbours = of_mesh.neighbours_of(mesh.tets)
+    body = Body(mesh.tets, mesh.tet_tags, neighbours)
+    for tet, around in enumerate(neighbours[:50]):
+        for face, other in enumerate(around):
+            if other >= 0:
+                corners = set(faces_of(mesh.tets[[tet]])[face])
+                assert corners <= set(mesh.tets[other])
+    kept = np.flatnonzero(mesh.tet_tags == 3)
+    faces, owner = of_mesh.hull(body, kept)
+    a, b, c = np.moveaxis(mesh.points[faces], 1, 0)
+    # a cube of side 1: its area, and its volume by the divergence theorem
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(6)
+    assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1)
+    assert set(owner) <= set(kept)
 
 
-def opened(browser: Any, path: Path) -> tuple[Any, list[str]]:
-    """A page without network, and what its console complains of."""
-    view = browser.new_page(viewport={"width": 1280, "height": 800}, offline=True)
-    loud = browsers.complaints(view)
-    view.goto(path.as_uri())
-    view.wait_for_function("window.decompView !== undefined", timeout=30000)
-    return view, loud
+def test_neighbours_have_different_colours() -> None:
+    """A ring of seven, each beside two; a piece beside all of eight; and all beside all."""
+    ring = [np.array([k, k + 10, (k + 1) % 7, (k + 1) % 7 + 10]) for k in range(7)]
+    found = spread(ring, 20)
+    assert all(found[k] != found[(k + 1) % 7] for k in range(7))
+    hub = [np.arange(16), *(np.array([2 * k, 2 * k + 1]) for k in range(8))]
+    found = spread(hub, 16)
+    assert found[0] not in found[1:]
+    # a single point in common is no border
+    assert spread([np.array([0, 1]), np.array([1, 2])], 3) == [0, 1]
+    clique = spread([np.arange(2)] * 24, 2)
+    assert sorted(clique) == list(range(len(PALETTE)))
+    assert len(set(PALETTE)) == len(PALETTE)
 
 
-def put(view: Any, name: str, value: float) -> None:
-    """Move a slider."""
-    view.evaluate(
-        "([name, value]) => { const e = document.getElementById(name); e.value = value; "
-        "e.dispatchEvent(new Event('input')); }",
-        [name, value],
-    )
-
-
-def drawn(view: Any) -> np.ndarray:
-    from PIL import Image
-
-    shot = view.locator("#stage canvas").screenshot()
-    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
-
-
-def test_the_page_in_a_browser(browser: Any, tmp_path: Path) -> None:
-    path = tmp_path / "block.html"
-    path.write_bytes(page.encoded(scene_of(tmp_path / "block.geo", block().skeleton)))
-    view, loud = opened(browser, path)
-    before = drawn(view)
-    assert ((before < 250).any(axis=2)).mean() > 0.05
-    # explode moves parts apart
-    put(view, "explode", 1)
-    apart = view.evaluate("window.decompView.meshes.map(m => m.position.length())")
-    assert sum(length > 0.3 for length in apart) >= 12
-    assert (drawn(view) != before).any(axis=2).mean() > 0.02
-    # the list hides by name
-    boxes = view.locator("#names details").first.locator(".item input")
-    assert boxes.count() == 13
-    boxes.first.uncheck()
-    visible = view.evaluate("window.decompView.meshes.filter(m => m.visible).length")
-    assert visible == 12
-    view.locator("#all-sheet").uncheck()
-    assert (drawn(view) > 250).all()
-    view.locator("#all-sheet").check()
-    # slicing takes away, colours change, names appear under the pointer
-    whole = drawn(view)
-    put(view, "slice", 0.4)
-    assert (drawn(view) < 250).sum() < (whole < 250).sum()
-    view.select_option("#colour", "value")
-    assert view.locator("#bar").count() == 1
-    put(view, "slice", 1)
-    put(view, "explode", 0)
-    box = view.locator("#stage canvas").bounding_box()
-    view.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    assert view.locator("#tip").inner_text().startswith("solid/sheet-")
-    assert loud == []
-    view.close()
-
-
-def test_a_mesh_in_a_browser(browser: Any, tmp_path: Path) -> None:
-    bar().write(tmp_path / "bar.msh")
-    assert main(["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "bar.html")]) == 0
-    view, loud = opened(browser, tmp_path / "bar.html")
-    assert ((drawn(view) < 250).any(axis=2)).mean() > 0.05
-    text = view.locator("#names").inner_text()
-    for name in ("left/front", "left/cell-1", "right/side"):
-        assert name in text
-    assert loud == []
-    view.close()
+def test_cells_and_regions_of_a_mesh_are_coloured_apart() -> None:
+    scene = of_mesh.scene_of(bar())
+    colours = colouring(scene)
+    cells = [k for k, part in enumerate(scene.parts) if part.group == "cell"]
+    assert len({colours.parts[k] for k in cells}) == 3
+    assert len(set(colours.regions.values())) == 2
+    assert list(colours.regions) == ["left", "right"]
