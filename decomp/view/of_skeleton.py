@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from decomp.cells.surface import side_triangles
+from decomp.drawing.scene import Field, Part, Scene
 from decomp.errors import InputError
 from decomp.optional import needed
 from decomp.plain import plain
 from decomp.vectors import Array
-from decomp.view.scene import Field, Part, Scene
 
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton

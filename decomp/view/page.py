@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from decomp.view.colouring import colouring
-from decomp.view.colours import CATEGORIES, PALETTE, VALUES
-from decomp.view.scene import Body, Scene
+from decomp.drawing.colouring import colouring
+from decomp.drawing.colours import CATEGORIES, PALETTE, VALUES
+from decomp.drawing.scene import Body, Scene
 
 SCRIPTS = (
     *("data", "elements", "colours", "parts", "section", "looking", "pointing", "values"),

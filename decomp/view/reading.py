@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from decomp.drawing.scene import Scene
 from decomp.errors import InputError
 from decomp.places import FAR
 from decomp.vectors import norm
-from decomp.view.scene import Scene
 
 if TYPE_CHECKING:
     from decomp.medial.result import Skeleton
@@ -28,7 +28,8 @@ def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:
         InputError: the file is of none of these kinds, or what reads it is not installed.
         FileError: it cannot be read.
     """
-    from decomp.view import of_mesh, of_skeleton
+    from decomp.drawing import of_mesh
+    from decomp.view import of_skeleton
 
     suffix = path.suffix.lower()
     if suffix in MESHES:

@@ -8,11 +8,11 @@ from html import escape
 
 import numpy as np
 
+from decomp.drawing.colours import CATEGORIES
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.quality import dihedral_angles, radius_ratios
 from decomp.tetra.report import Report
 from decomp.vectors import Array
-from decomp.view.colours import CATEGORIES
 
 BINS, WIDE, HIGH, FOOT = 36, 560, 180, 22
 STYLE = (

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from decomp.drawing.colouring import shown
+from decomp.drawing.scene import Part, Scene
 from decomp.vectors import Array
-from decomp.view.colouring import coloured
-from decomp.view.scene import Part, Scene
 
 REACH = 0.8
 """The farthest that parts are moved out, in parts of their distance from the middle."""
@@ -89,7 +89,7 @@ class Window:
 
     def _parts(self, scene: Scene) -> tuple[Shown, ...]:
         is_mesh = scene.body is not None
-        found = [self._part(part, colour, is_mesh) for part, colour in coloured(scene)]
+        found = [self._part(each.part, each.colour, is_mesh) for each in shown(scene)]
         if scene.opaque == "sheet":
             for part in scene.parts:
                 if part.group == "face":

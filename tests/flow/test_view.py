@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,13 +11,14 @@ import numpy as np
 import pytest
 
 from decomp.cli.main import main
+from decomp.drawing import of_mesh
+from decomp.drawing.colouring import colouring
+from decomp.drawing.colours import CATEGORIES, PALETTE, rgb, spread
+from decomp.drawing.scene import Body
 from decomp.output import write
 from decomp.tetra.incidence import faces_of
-from decomp.view import of_mesh, page
-from decomp.view.colouring import colouring
-from decomp.view.colours import CATEGORIES, PALETTE, rgb, spread
+from decomp.view import page
 from decomp.view.reading import scene_of
-from decomp.view.scene import Body
 from tests.mesh_output.shapes import bar
 from tests.skeleton_fixtures import block
 
@@ -147,18 +149,20 @@ def test_the_hull_of_some_tetrahedra() -> None:
     assert set(owner) <= set(kept)
 
 
-def test_neighbours_have_different_colours() -> None:
-    """A ring of seven, each beside two; a piece beside all of eight; and all beside all."""
-    ring = [np.array([k, k + 10, (k + 1) % 7, (k + 1) % 7 + 10]) for k in range(7)]
-    found = spread(ring, 20)
-    assert all(found[k] != found[(k + 1) % 7] for k in range(7))
-    hub = [np.arange(16), *(np.array([2 * k, 2 * k + 1]) for k in range(8))]
-    found = spread(hub, 16)
-    assert found[0] not in found[1:]
-    # a single point in common is no border
-    assert spread([np.array([0, 1]), np.array([1, 2])], 3) == [0, 1]
-    clique = spread([np.arange(2)] * 24, 2)
-    assert sorted(clique) == list(range(len(PALETTE)))
+def test_colours_differ() -> None:
+    """All of few pieces, the neighbours among many, and as many as can where all are neighbours."""
+    few = [np.array([k, k + 1]) for k in range(len(PALETTE))]
+    assert sorted(spread(few, 30)) == list(range(len(PALETTE)))
+    size = 12
+    corner = np.arange((size + 1) ** 2).reshape(size + 1, size + 1)
+    squares = [corner[i : i + 2, j : j + 2].ravel() for i in range(size) for j in range(size)]
+    found = np.array(spread(squares, corner.size)).reshape(size, size)
+    assert (found[1:] != found[:-1]).all()
+    assert (found[:, 1:] != found[:, :-1]).all()
+    counts = np.bincount(found.ravel())
+    assert counts.max() - counts.min() <= 1
+    clique = spread([np.arange(2)] * (2 * len(PALETTE)), 2)
+    assert np.bincount(clique).tolist() == [2] * len(PALETTE)
     assert len(set(PALETTE)) == len(PALETTE)
 
 
@@ -169,3 +173,52 @@ def test_cells_and_regions_of_a_mesh_are_coloured_apart() -> None:
     assert len({colours.parts[k] for k in cells}) == 3
     assert len(set(colours.regions.values())) == 2
     assert list(colours.regions) == ["left", "right"]
+
+
+def test_a_picture_as_it_is_asked_for(tmp_path: Path) -> None:
+    from PIL import Image
+
+    bar().write(tmp_path / "bar.msh")
+    told = ["view", str(tmp_path / "bar.msh"), "--quiet", "-o"]
+    assert main([*told, str(tmp_path / "a.png"), "--camera=-y", "--size-px", "320x200"]) == 0
+    more = ["--camera=0,-2,0", "--clip", "y=0.3", "--size-px", "320x200"]
+    assert main([*told, str(tmp_path / "b.png"), *more]) == 0
+    one, other = (Image.open(tmp_path / f"{name}.png") for name in "ab")
+    assert one.size == other.size == (320, 200)
+    # cut across its elements there are more of their edges
+    dark = [int((np.asarray(image.convert("L")) < 70).sum()) for image in (one, other)]
+    assert dark[0] != dark[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("--camera up", "'up' is none of iso, .*, nor X,Y,Z"),
+        ("--camera 0,0,0", "0,0,0 tells no direction"),
+        ("--camera 1,nan,0", "tells no direction"),
+        ("--clip w", "'w' is no axis: x, y or z, such as y or y=2.5"),
+        ("--clip y=", "'' is no number to cut y at"),
+        ("--clip y=inf", "'inf' is no number"),
+        ("--size-px 12", "'12' is no size such as 1200x900"),
+        ("--size-px 10x10", "sides must be from 64 to 8192 pixels, not 10x10"),
+        ("--clip y=5", "cut at y = 5, nothing is left to be seen"),
+    ],
+)
+def test_pictures_that_cannot_be(
+    given: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bar().write(tmp_path / "bar.msh")
+    told = ["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "b.png"), *given.split()]
+    try:
+        assert main(told) == 2
+    except SystemExit as ended:
+        assert ended.code == 2
+    assert re.search(message, " ".join(capsys.readouterr().err.split()))
+    assert not (tmp_path / "b.png").exists()
+
+
+def test_a_page_has_no_camera(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bar().write(tmp_path / "bar.msh")
+    told = ["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "b.html"), "--clip", "y"]
+    assert main(told) == 2
+    assert "--size-px are of pictures: give a .png with -o" in capsys.readouterr().err

@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 
 from decomp.cli.main import main
+from decomp.drawing import of_mesh
+from decomp.drawing.colours import rgb
 from decomp.tetra.mesh import TetMesh
-from decomp.view import of_mesh, page
-from decomp.view.colours import rgb
+from decomp.view import page
 from decomp.view.reading import scene_of
 from tests import browser as browsers
 from tests.mesh_output.shapes import bar

@@ -5,6 +5,7 @@ import { body, data, fields, points } from "decomp/data";
 /** The field that is coloured by, and the values that are shown; null for all. */
 export const threshold = { field: null, least: -Infinity, most: Infinity };
 
+const ON = 1e-6; // points nearer to a plane are on it; the whole is 2 across
 const corner = (t, k) => body.tets[4 * t + k];
 
 /** The value of a tetrahedron: its own, or the mean of its corners. */
@@ -91,19 +92,21 @@ export function hull(tets, number, kept) {
 }
 
 /**
- * Where tetrahedra (`tets`) are cut: triangles as corners on edges (two nodes and a share each), and the
- * tetrahedron of each; `distance` (by node) is 0 on the plane. The outlines are pairs of corners.
+ * Where tetrahedra (`tets`) are cut, or touch the plane from the side that is kept: triangles as corners on edges
+ * (two nodes and a share each), and the tetrahedron of each; `distance` (by node) is 0 on the plane. The outlines
+ * are pairs of corners.
  */
 export function cut(tets, kept, distance, offset) {
   const corners = [], owner = [], outlines = [];
+  const from = node => { const d = distance[node] + offset; return Math.abs(d) < ON ? 0 : d; };
   const sides = [[], []];
   for (const t of tets) {
     if (kept && !kept[t]) continue;
     sides[0].length = sides[1].length = 0;
-    for (let k = 0; k < 4; k++) sides[distance[corner(t, k)] + offset >= 0 ? 0 : 1].push(corner(t, k));
+    for (let k = 0; k < 4; k++) sides[from(corner(t, k)) > 0 ? 0 : 1].push(corner(t, k));
     const [inside, outside] = sides;
     if (!inside.length || !outside.length) continue;
-    const on = (a, b) => [a, b, (distance[a] + offset) / (distance[a] - distance[b])];
+    const on = (a, b) => [a, b, from(a) / (from(a) - from(b))];
     const polygon = inside.length === 2
       ? [on(inside[0], outside[0]), on(inside[0], outside[1]), on(inside[1], outside[1]), on(inside[1], outside[0])]
       : inside.flatMap(a => outside.map(b => on(a, b)));

@@ -21,8 +21,9 @@ export function geometryOf(corners) {
   return geometry;
 }
 
-/** Surfaces are drawn a little behind lines, and faces behind sheets. */
+/** Surfaces are drawn a little behind lines, and those of cells and faces behind sheets and sections. */
 export const BEHIND_LINES = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+const FARTHER = { polygonOffsetFactor: 2, polygonOffsetUnits: 4 };
 export const lineMaterial = opacity =>
   new THREE.LineBasicMaterial({ color: 0x222222, transparent: opacity < 1, opacity });
 const EDGE = 0.75;
@@ -31,7 +32,7 @@ class Piece {
   constructor(part, number) {
     Object.assign(this, part, { part, number, corners: [], owner: null, stale: true });
     this.mesh = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshLambertMaterial({
-      vertexColors: true, side: THREE.DoubleSide, ...BEHIND_LINES, polygonOffsetFactor: part.group === "sheet" ? 1 : 2 }));
+      vertexColors: true, side: THREE.DoubleSide, ...BEHIND_LINES, ...(part.group === "sheet" ? {} : FARTHER) }));
     this.lines = new THREE.LineSegments(new THREE.BufferGeometry(), lineMaterial(EDGE));
     this.mesh.add(this.lines);
     this.mesh.userData.piece = this;

@@ -51,8 +51,8 @@ PALETTE = (
 def spread(pieces: Sequence[Ints], count: int) -> list[int]:
     """Numbers into `PALETTE` of pieces, no two neighbours alike while the palette suffices.
 
-    Pieces with many neighbours choose first, the colour that is least used so far; beyond the
-    eight categories only where all of these are among the neighbours.
+    All differ if the palette has so many. Pieces with many neighbours choose first: the colour that
+    is least used so far, if it can be one whose lighter and darker forms are not beside it either.
 
     Args:
         pieces: the points of each, as numbers, any number of times.
@@ -69,11 +69,16 @@ def spread(pieces: Sequence[Ints], count: int) -> list[int]:
     used = [0] * len(PALETTE)
     for k in sorted(range(len(points)), key=lambda k: -len(near[k])):
         around = {result[other] for other in near[k]}
-        free = [c for c in range(len(CATEGORIES)) if c not in around]
-        free = free or [c for c in range(len(PALETTE)) if c not in around]
-        chosen = min(free or range(len(PALETTE)), key=lambda c: (used[c], c))
+        hues = {colour % len(CATEGORIES) for colour in around}
+        free = [c for c in range(len(PALETTE)) if c not in around] or range(len(PALETTE))
+        chosen = _least(free, used, hues)
         result[k], used[chosen] = chosen, used[chosen] + 1
     return result
+
+
+def _least(free: Sequence[int], used: Sequence[int], hues: set[int]) -> int:
+    """The colour that is used least, then one of a hue that is none of `hues`, then the first."""
+    return min(free, key=lambda c: (used[c], c % len(CATEGORIES) in hues, c))
 
 
 def _beside(shared: csr_array, piece: int) -> list[int]:

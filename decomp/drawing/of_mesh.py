@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from decomp.cells.surface import used_points
+from decomp.drawing.scene import Body, Field, Part, Scene
 from decomp.plain import plain
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
 from decomp.tetra.quality import dihedral_angles, radius_ratios
 from decomp.vectors import Array, Bools, Ints
-from decomp.view.scene import Body, Field, Part, Scene
 
 QUALITY, ANGLE = "quality (3 r / R)", "least dihedral angle"
 

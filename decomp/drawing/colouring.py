@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.view.colours import CATEGORIES, PALETTE, spread
-from decomp.view.scene import GROUPS, Part, Scene
+from decomp.drawing.colours import CATEGORIES, PALETTE, spread
+from decomp.drawing.scene import GROUPS, Part, Scene
 
 
 @dataclass(frozen=True)
@@ -45,17 +45,39 @@ def region_names(scene: Scene) -> list[str]:
     return [name for name in names if name]
 
 
-def coloured(scene: Scene) -> list[tuple[Part, str]]:
-    """The opaque parts with the colours that are seen first.
+@dataclass(frozen=True)
+class Shown:
+    """A part that is seen first.
+
+    Args:
+        number: of the part in the scene.
+        part: itself.
+        colour: such as #0072B2.
+        label: what this colour stands for.
+    """
+
+    number: int
+    part: Part
+    colour: str
+    label: str
+
+
+def shown(scene: Scene) -> list[Shown]:
+    """The parts of the opaque group, in the colours that are seen first.
 
     Sheets by kind of surface if there are several kinds, cells of several regions by region, and
     all else each in its own.
     """
     found = colouring(scene)
-    shown = [(k, part) for k, part in enumerate(scene.parts) if part.group == scene.opaque]
-    kinds = list(dict.fromkeys(part.kind for _, part in shown))
-    if len(kinds) > 1:
-        return [(part, CATEGORIES[kinds.index(part.kind) % len(CATEGORIES)]) for _, part in shown]
-    if scene.body is not None and len({part.region for _, part in shown}) > 1:
-        return [(part, PALETTE[found.regions[part.region]]) for _, part in shown]
-    return [(part, PALETTE[found.parts[k]]) for k, part in shown]
+    own = [(k, part) for k, part in enumerate(scene.parts) if part.group == scene.opaque]
+    kinds = list(dict.fromkeys(part.kind for _, part in own))
+    by_region = scene.body is not None and len({part.region for _, part in own}) > 1
+    result = []
+    for k, part in own:
+        colour, label = PALETTE[found.parts[k]], part.name
+        if len(kinds) > 1:
+            colour, label = CATEGORIES[kinds.index(part.kind) % len(CATEGORIES)], part.kind
+        elif by_region:
+            colour, label = PALETTE[found.regions[part.region]], part.region
+        result.append(Shown(k, part, colour, label))
+    return result
