@@ -9,7 +9,7 @@ const START = { around: -0.9, up: 0.45 };
 const VIEWS = { iso: START, "+x": { around: 0, up: 0 }, "-x": { around: Math.PI, up: 0 },
   "+y": { around: Math.PI / 2, up: 0 }, "-y": { around: -Math.PI / 2, up: 0 },
   "+z": { around: -Math.PI / 2, up: 1.57 }, "-z": { around: -Math.PI / 2, up: -1.57 } };
-const AWAY = 3.6, TRIAD = 84;
+const AWAY = 3.6, NEAREST = 0.1, TRIAD = 84;
 
 export const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true, stencil: true });
 renderer.localClippingEnabled = true;
@@ -88,12 +88,20 @@ for (const [name, view] of Object.entries(VIEWS)) {
 get("views").append(made("button", { type: "button", textContent: "reset", title: "as it was at first", id: "reset",
   onclick: () => { ({ around, up } = START); away = AWAY; target.set(0, 0, 0); look(); } }));
 
+/** Look at a box, so near that it fills a good part of the stage. */
+export function aim(box) {
+  const size = box.getSize(new THREE.Vector3()).length() / 2;
+  box.getCenter(target);
+  away = Math.max(NEAREST, AWAY * Math.min(1, 1.3 * size));
+  look();
+}
+
 function move(dx, dy) {
   const step = away / canvas.clientHeight * 0.63;
   target.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0), -dx * step)
     .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1), dy * step);
 }
-function zoom(factor) { away = Math.min(30, Math.max(0.1, away * factor)); }
+function zoom(factor) { away = Math.min(30, Math.max(NEAREST, away * factor)); }
 
 const held = new Map(); // pointers that are down, by their numbers
 let turns = true;

@@ -1,12 +1,13 @@
 // The page put together: what each control changes.
 
+import * as THREE from "three";
 import { data, fields, get } from "decomp/data";
 import { chosen, choose, modes } from "decomp/colours";
 import { pieces } from "decomp/parts";
 import { cap, isCut, kept, paintCaps, placeAll, section } from "decomp/section";
-import { draw, fit, look, nearSide } from "decomp/looking";
+import { aim, draw, fit, look, nearSide } from "decomp/looking";
 import { legend, onThreshold } from "decomp/values";
-import { list, only, onNames, refresh } from "decomp/names";
+import { list, only as showOnly, onNames, refresh } from "decomp/names";
 import { seenAt } from "decomp/pointing";
 
 get("title").textContent = data.title;
@@ -94,10 +95,19 @@ colours();
 visible();
 fit();
 
-/** An address that ends in #only=NAME shows that part alone. */
+/** Show a part alone, and go near it. Tells whether there is one. */
+function only(name, group) {
+  if (!showOnly(name, group)) return false;
+  const box = new THREE.Box3();
+  for (const piece of pieces) if (piece.visible) box.union(new THREE.Box3().setFromObject(piece.mesh));
+  aim(box);
+  return true;
+}
+
+/** An address that ends in #only=NAME shows that part alone; &group=face tells one from a volume of its name. */
 function follow() {
-  const asked = new URLSearchParams(location.hash.slice(1)).get("only");
-  if (asked) only(asked);
+  const asked = new URLSearchParams(location.hash.slice(1));
+  if (asked.has("only")) only(asked.get("only"), asked.get("group"));
 }
 window.addEventListener("hashchange", follow);
 follow();

@@ -18,15 +18,21 @@ function show(some, whether) {
   changed();
 }
 
-/** Show one part alone, the one of a name; "back to all" undoes it. Returns whether there is one. */
-export function only(name) {
-  const chosen = pieces.filter(piece => piece.name === name);
-  if (!chosen.length) return false;
+/** Show some parts alone; "back to all" undoes it. */
+function alone(some) {
   before ??= pieces.map(piece => piece.visible);
   get("back").hidden = false;
   for (const piece of pieces) piece.mesh.visible = false;
-  show(chosen.slice(0, 1), true);
-  return true;
+  show(some, true);
+}
+
+/** Show the part of a name alone, of this group if several have it, or all volumes of a region. Tells whether there is one. */
+export function only(name, group = null) {
+  const named = pieces.filter(piece => piece.name === name);
+  const one = named.find(piece => piece.group === group) ?? named[0];
+  const chosen = one ? [one] : pieces.filter(piece => piece.region === name && piece.group === data.first);
+  if (chosen.length) alone(chosen);
+  return chosen.length > 0;
 }
 get("back").addEventListener("click", () => {
   before.forEach((visible, k) => { pieces[k].mesh.visible = visible; });
@@ -54,8 +60,8 @@ let pattern = null;
 function item(piece, label) {
   const tick = made("input", { type: "checkbox" }), sign = chip("transparent");
   tick.addEventListener("change", () => show([piece], tick.checked));
-  const alone = made("button", { type: "button", textContent: "only", title: "show this one alone", onclick: () => only(piece.name) });
-  const row = made("div", { className: "item", title: piece.name }, made("label", {}, tick, sign, made("span", { textContent: label })), alone);
+  const button = made("button", { type: "button", textContent: "only", title: "show this one alone", onclick: () => alone([piece]) });
+  const row = made("div", { className: "item", title: piece.name }, made("label", {}, tick, sign, made("span", { textContent: label })), button);
   rows.push({ row, tick, sign, piece });
   return row;
 }
