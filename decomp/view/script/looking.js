@@ -1,7 +1,7 @@
 // The camera: turning, moving, coming nearer, standard views, and the triad that tells directions.
 
 import * as THREE from "three";
-import { get, made } from "decomp/data";
+import { get, high, low, made, scale } from "decomp/data";
 import { scene } from "decomp/parts";
 import { section } from "decomp/section";
 
@@ -9,7 +9,7 @@ const START = { around: -0.9, up: 0.45 };
 const VIEWS = { iso: START, "+x": { around: 0, up: 0 }, "-x": { around: Math.PI, up: 0 },
   "+y": { around: Math.PI / 2, up: 0 }, "-y": { around: -Math.PI / 2, up: 0 },
   "+z": { around: -Math.PI / 2, up: 1.57 }, "-z": { around: -Math.PI / 2, up: -1.57 } };
-const AWAY = 3.6, NEAREST = 0.1, TRIAD = 84;
+const FIELD = 35, FREE = 1.1, NEAREST = 0.1, FARTHEST = 30, TRIAD = 84;
 
 export const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true, stencil: true });
 renderer.localClippingEnabled = true;
@@ -19,7 +19,7 @@ renderer.setClearColor(0xffffff);
 const stage = get("stage"), canvas = renderer.domElement;
 stage.prepend(canvas);
 
-export const camera = new THREE.PerspectiveCamera(35, 1, 0.01, 100);
+export const camera = new THREE.PerspectiveCamera(FIELD, 1, 0.01, 100);
 camera.up.set(0, 0, 1);
 function light(where, eye) {
   where.add(new THREE.HemisphereLight(0xffffff, 0xb0b0b0, 2.2), eye);
@@ -46,14 +46,30 @@ function letter(text) {
   compass.add(new THREE.ArrowHelper(way, new THREE.Vector3(), 1, colour, 0.3, 0.18), sign);
 });
 
-let { around, up } = START, away = AWAY;
+const half = new THREE.Vector3(...high.map((value, axis) => (value - low[axis]) / 2 * scale));
+const whole = new THREE.Box3(half.clone().negate(), half);
+let { around, up } = START, away = 1, home = 0;
 const target = new THREE.Vector3();
 
+/** How far the eye must be from a box's middle, to have all of it in the picture from where it looks. */
+function distance(box) {
+  const right = new THREE.Vector3(-Math.sin(around), Math.cos(around), 0);
+  const above = new THREE.Vector3(-Math.sin(up) * Math.cos(around), -Math.sin(up) * Math.sin(around), Math.cos(up));
+  const towards = right.clone().cross(above), middle = box.getCenter(new THREE.Vector3());
+  const slope = Math.tan(FIELD / 2 * Math.PI / 180);
+  let result = 0;
+  for (let k = 0; k < 8; k++) {
+    const corner = new THREE.Vector3(...["x", "y", "z"].map((axis, j) => box[k >> j & 1 ? "max" : "min"][axis])).sub(middle);
+    const across = Math.max(Math.abs(corner.dot(right)) / camera.aspect, Math.abs(corner.dot(above)));
+    result = Math.max(result, FREE * across / slope + corner.dot(towards));
+  }
+  return Math.max(result, NEAREST);
+}
+
 export function look() {
-  const wide = Math.max(1, 1 / camera.aspect);
   camera.position.set(Math.cos(up) * Math.cos(around), Math.cos(up) * Math.sin(around), Math.sin(up));
   compassEye.position.copy(camera.position).multiplyScalar(5);
-  camera.position.multiplyScalar(away * wide * (1 + 0.8 * section.exploded)).add(target);
+  camera.position.multiplyScalar(away * (1 + 0.8 * section.exploded)).add(target);
   camera.lookAt(target);
   compassEye.lookAt(0, 0, 0);
   draw();
@@ -77,31 +93,35 @@ export function fit() {
   renderer.setSize(stage.clientWidth, stage.clientHeight);
   camera.aspect = stage.clientWidth / Math.max(stage.clientHeight, 1);
   camera.updateProjectionMatrix();
+  // what filled the stage before fills it now
+  const before = home;
+  home = distance(whole);
+  away = before ? away * home / before : home;
+  look();
+}
+
+/** Look at a box as a whole, from where the eye is or from one of the views. */
+export function aim(box, view = { around, up }) {
+  ({ around, up } = view);
+  box.getCenter(target);
+  away = distance(box);
   look();
 }
 
 for (const [name, view] of Object.entries(VIEWS)) {
   const said = name === "iso" ? "from above, aslant" : `seen from ${name}`;
   get("views").append(made("button", { type: "button", textContent: name, title: said, id: `view-${name}`,
-    onclick: () => { ({ around, up } = view); look(); } }));
+    onclick: () => aim(whole, view) }));
 }
 get("views").append(made("button", { type: "button", textContent: "reset", title: "as it was at first", id: "reset",
-  onclick: () => { ({ around, up } = START); away = AWAY; target.set(0, 0, 0); look(); } }));
-
-/** Look at a box, so near that it fills a good part of the stage. */
-export function aim(box) {
-  const size = box.getSize(new THREE.Vector3()).length() / 2;
-  box.getCenter(target);
-  away = Math.max(NEAREST, AWAY * Math.min(1, 1.3 * size));
-  look();
-}
+  onclick: () => aim(whole, START) }));
 
 function move(dx, dy) {
   const step = away / canvas.clientHeight * 0.63;
   target.addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 0), -dx * step)
     .addScaledVector(new THREE.Vector3().setFromMatrixColumn(camera.matrix, 1), dy * step);
 }
-function zoom(factor) { away = Math.min(30, Math.max(NEAREST, away * factor)); }
+function zoom(factor) { away = Math.min(FARTHEST, Math.max(NEAREST, away * factor)); }
 
 const held = new Map(); // pointers that are down, by their numbers
 let turns = true;

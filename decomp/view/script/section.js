@@ -18,6 +18,10 @@ let distance = new Float32Array(0);
 export const isCut = () => section.share > 0;
 const byWhole = () => isCut() && section.whole;
 
+// a place to a hundred-thousandth of the model, without the digits that single precision leaves behind
+const STEP = 10 ** Math.floor(Math.log10(2e-5 / scale));
+const rounded = value => Math.round(value / STEP) * STEP;
+
 /** Put the plane where the controls say, and the parts where they are exploded to. */
 export function placeAll() {
   const { axis, side, share, exploded } = section;
@@ -27,7 +31,7 @@ export function placeAll() {
   const at = side * (1 - 2 * share) * half - (share < 1 ? 0 : side * 1e-3);
   plane.normal.set(0, 0, 0).setComponent(axis, -side);
   plane.constant = isCut() ? side * at : NOWHERE;
-  get("slice-said").textContent = isCut() ? `${"xyz"[axis]} = ${said(inModel(at, axis))}` : "";
+  get("slice-said").textContent = isCut() ? `${"xyz"[axis]} = ${said(rounded(inModel(at, axis)))}` : "";
   for (const piece of pieces) {
     const clipping = byWhole() && piece.tets ? [] : [plane];
     piece.mesh.material.clippingPlanes = piece.lines.material.clippingPlanes = clipping;
