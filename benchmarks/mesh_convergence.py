@@ -30,7 +30,7 @@ PARTS = {"sphere": (20, 30, 45), "cylinder": (20, 30, 45), "torus": (40, 55, 75)
 def error_and_edge(name: str, part: int, order: int) -> tuple[int, float, float]:
     """Tetrahedra, relative error of the volume, and mean edge of its curved faces."""
     geometry = Geometry(SOLIDS[name].make())
-    mesh: TetMesh = decomp.mesh(geometry, size=geometry.diagonal / part, order=order, sheets=False)
+    mesh: TetMesh = decomp.mesh(geometry, size=geometry.diagonal / part, order=order)
     (region,) = geometry.regions
     error = abs(float(volumes(mesh.points, mesh.tets).sum()) / region.volume - 1)
     curved = [

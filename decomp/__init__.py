@@ -36,14 +36,35 @@ if TYPE_CHECKING:
     from decomp.csg.solid import intersection as intersection
     from decomp.csg.solid import union as union
     from decomp.errors import DecompError as DecompError
+    from decomp.errors import FileError as FileError
+    from decomp.errors import GeometryError as GeometryError
+    from decomp.errors import InputError as InputError
+    from decomp.errors import MissingPackageError as MissingPackageError
+    from decomp.errors import UnknownNameError as UnknownNameError
     from decomp.formats import load as load
     from decomp.formats import save as save
     from decomp.geometry import Geometry as Geometry
     from decomp.medial.facing import MidSurface as MidSurface
     from decomp.medial.facing import mid_surface as mid_surface
+    from decomp.medial.result import Cell as Cell
+    from decomp.medial.result import Certificate as Certificate
+    from decomp.medial.result import Junction as Junction
+    from decomp.medial.result import Reflexive as Reflexive
+    from decomp.medial.result import RegionSkeleton as RegionSkeleton
+    from decomp.medial.result import Sheet as Sheet
     from decomp.medial.result import Skeleton as Skeleton
+    from decomp.medial.result import SkeletonLine as SkeletonLine
     from decomp.meshing import mesh as mesh
+    from decomp.sites import Nearest as Nearest
+    from decomp.tetra.check import Checked as Checked
+    from decomp.tetra.check import check as check
+    from decomp.tetra.child import MeshingError as MeshingError
+    from decomp.tetra.group import Group as Group
+    from decomp.tetra.group import GroupKind as GroupKind
     from decomp.tetra.mesh import TetMesh as TetMesh
+    from decomp.tetra.reading import read as read
+    from decomp.tetra.report import Report as Report
+    from decomp.tetra.report import report as report
     from decomp.ways import skeleton as skeleton
 
 _HOMES = {
@@ -60,13 +81,35 @@ _HOMES = {
         "Torus",
     ),
     "decomp.csg.solid": ("Solid", "intersection", "union"),
-    "decomp.errors": ("DecompError",),
+    "decomp.errors": (
+        "DecompError",
+        "FileError",
+        "GeometryError",
+        "InputError",
+        "MissingPackageError",
+        "UnknownNameError",
+    ),
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
     "decomp.medial.facing": ("MidSurface", "mid_surface"),
-    "decomp.medial.result": ("Skeleton",),
+    "decomp.medial.result": (
+        "Cell",
+        "Certificate",
+        "Junction",
+        "Reflexive",
+        "RegionSkeleton",
+        "Sheet",
+        "Skeleton",
+        "SkeletonLine",
+    ),
     "decomp.meshing": ("mesh",),
+    "decomp.sites": ("Nearest",),
+    "decomp.tetra.check": ("Checked", "check"),
+    "decomp.tetra.child": ("MeshingError",),
+    "decomp.tetra.group": ("Group", "GroupKind"),
     "decomp.tetra.mesh": ("TetMesh",),
+    "decomp.tetra.reading": ("read",),
+    "decomp.tetra.report": ("Report", "report"),
     "decomp.ways": ("skeleton",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -76,10 +119,16 @@ __all__ = sorted(_HOME_OF)
 
 def __getattr__(name: str) -> Any:
     """Import a public name where it is first used, so that the command line starts fast."""
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("decomp")
     if name not in _HOME_OF:
-        raise AttributeError(f"module 'decomp' has no attribute {name!r}")
+        from decomp.near import near
+
+        raise AttributeError(f"module 'decomp' has no attribute {name!r}{near(name, __all__)}")
     return getattr(import_module(_HOME_OF[name]), name)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_HOME_OF})
+    return [*__all__, "__version__"]

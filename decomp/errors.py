@@ -32,7 +32,7 @@ class DecompError(Exception):
     exit_code = 1
 
     def __str__(self) -> str:
-        text = super().__str__()
+        text = str(self.args[0]) if len(self.args) == 1 else super().__str__()
         if len(text) > LONGEST:  # a name or a value out of a file is that long
             text = f"{text[: LONGEST - 300]} ... {text[-300:]}"
         return plain(text)
@@ -42,6 +42,10 @@ class InputError(DecompError):
     """The user's input is wrong: a parameter, a file, a name."""
 
     exit_code = 2
+
+
+class UnknownNameError(InputError, KeyError):
+    """There is nothing of a name; says which names are near."""
 
 
 class MissingPackageError(InputError, ImportError):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,13 +19,14 @@ from decomp.csg.model import Model, model
 from decomp.csg.solid import Solid
 from decomp.formats import load
 from decomp.places import seen_from
+from decomp.shown import Shown
 from decomp.vectors import Array, Bools
 
 if TYPE_CHECKING:
     from decomp.sites import Nearest, Site, SiteIndex
 
 
-class Geometry:
+class Geometry(Shown):
     """Exact boundary and nearest-site queries of a model.
 
     Regions without interior are left out: `model` is what is left, and its `ignored` names them.
@@ -85,6 +87,34 @@ class Geometry:
         return SiteIndex(
             found.form, found.regions, partial(getattr, found, "outside"), found.face_at
         )
+
+    def _facts(self) -> Mapping[str, Any]:
+        own = self.boundaries.regions
+        return {
+            "name": self.model.name,
+            "regions": tuple(each.name for each in own),
+            "faces": sum(len(each.faces) for each in own),
+            "edges": sum(len(each.edges) for each in own),
+            "vertices": sum(len(each.vertices) for each in own),
+            "diagonal": self.diagonal,
+        }
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[Any]]]:
+        rows = ((r.name, r.volume, r.area, len(r.faces), r.euler) for r in self.boundaries.regions)
+        return ("region", "volume", "area", "faces", "Euler characteristic"), rows
+
+    def plot(self, **options: Any) -> Any:
+        """Show its faces with PyVista, in a window or in a notebook.
+
+        Args:
+            options: of `pyvista.DataSet.plot`, such as `off_screen`, `screenshot`, `cpos`.
+
+        Raises:
+            MissingPackageError: pyvista is not installed.
+        """
+        from decomp.view.plot import plot_geometry
+
+        return plot_geometry(self, options)
 
     def contains(self, points: ArrayLike) -> Bools:
         """Whether points (n, 3) lie in some region: (n,) bool.

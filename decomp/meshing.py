@@ -8,13 +8,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 
-from decomp.arguments import called, one_of, switch
+from decomp.arguments import called, one_of
 from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
@@ -23,11 +23,15 @@ from decomp.located import located
 from decomp.tetra.cells import OUTSIDE
 from decomp.tetra.check_names import resolved
 from decomp.tetra.child import TimeLimit
+from decomp.tetra.chosen_of_model import check_chosen
 from decomp.tetra.fields import checked_fields, with_fields
-from decomp.tetra.groups import cell_groups, region_groups, surface_groups
-from decomp.tetra.mesh import Group, TetMesh
+from decomp.tetra.group import Group
+from decomp.tetra.grouping import Chosen, Volumes
+from decomp.tetra.groups import cell_parts, region_parts, surface_parts
+from decomp.tetra.mesh import TetMesh, regrouped
 from decomp.tetra.moved import moved_mesh
 from decomp.tetra.off_surfaces import known_sheets, off_surfaces
+from decomp.tetra.parts import Parts
 from decomp.tetra.preparation import Cells, Prepared, Progress, prepared
 from decomp.tetra.quadratic import quadratic
 from decomp.tetra.sizes import Wanted
@@ -49,8 +53,11 @@ def mesh(
     elements_per_circle: float | None = None,
     order: int = 1,
     cells: Cells = "skeleton",
-    volumes: Literal["cells", "regions"] = "cells",
-    sheets: bool = True,
+    volumes: Volumes = "regions",
+    sheets: bool = False,
+    groups: Mapping[str, str | Sequence[str]] | None = None,
+    split_faces: bool = False,
+    edges: bool = False,
     fields: Sequence[str] = (),
     timeout: float | None = None,
     progress: Progress | None = None,
@@ -66,9 +73,15 @@ def mesh(
         order: 1 for straight elements, 2 for quadratic ones.
         cells: `skeleton`, `face` for one cell for each boundary face, or `none`: then no skeleton
             is computed, and the mesh has faces, interfaces and regions alone.
-        volumes: `cells`, or `regions` for one physical volume for each region, which is all there
-            is without cells.
-        sheets: whether triangles between the cells of a region are tagged.
+        volumes: `regions` for one group of tetrahedra for each region, `cells` for one for each
+            cell, `materials` for one for all regions of one material and each without one.
+        sheets: whether there are groups of the triangles between the cells of a region.
+        groups: by name one pattern or several: the faces, regions or edges that they stand for
+            are one group of that name (`TetMesh.select`).
+        split_faces: whether the pieces of a face (`base.zmax`, `base.zmax@2`) are groups of their
+            own; else they are one.
+        edges: whether edges and vertices of the model are groups of edges of triangles and of
+            nodes, named by the faces that meet there: `part/base.zmax&hole.side`.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.tetra.fields`).
         timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
@@ -84,18 +97,16 @@ def mesh(
     """
     order = one_of(order, (1, 2), "order")
     cells = one_of(cells, ("skeleton", "face", "none"), "cells")
-    volumes = one_of(volumes, ("cells", "regions"), "volumes")
-    sheets = switch(sheets, "sheets")
+    chosen = Chosen(volumes, sheets, {} if groups is None else groups, split_faces, edges)
     called(progress, "progress")
     seconds = None if timeout is None else positive(timeout, "timeout")
     asked = checked_fields(fields, with_cells=cells != "none")
     wanted = Wanted(size, layers, elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
+    check_chosen(geometry, chosen, with_cells=cells != "none")
     with geometry.frame(), located(geometry):
-        made = _meshed(
-            geometry.local, wanted, order, cells, volumes, sheets, asked, seconds, progress
-        )
-    return moved_mesh(made, geometry.offset)
+        made = _meshed(geometry.local, wanted, order, cells, asked, seconds, progress)
+    return moved_mesh(regrouped(made, chosen), geometry.offset)
 
 
 def _meshed(
@@ -103,8 +114,6 @@ def _meshed(
     wanted: Wanted,
     order: int,
     cells: Cells,
-    volumes: Literal["cells", "regions"],
-    sheets: bool,
     asked: Sequence[str],
     seconds: float | None,
     progress: Progress | None,
@@ -118,29 +127,35 @@ def _meshed(
         tell("curving", FILLED)
     points, tets, triangles = _elements(given, made, order)
     tagged, part = made.fit.tagged, made.fit.part
-    groups, tags = surface_groups(
-        geometry, given.surface, given.known, given.plan, tagged, sheets, given.sizes
+    surfaces, tags = surface_parts(
+        geometry, given.surface, given.known, given.plan, tagged, given.sizes
     )
     triangles, tags = triangles[tags > 0], tags[tags > 0]
-    cell = given.known.cell_of(part) + 1
-    if volumes == "cells" and cells != "none":
-        solid, tet_tags = cell_groups(geometry, given.known, given.sizes), cell
-    else:
-        solid = region_groups(geometry, given.sizes)
-        tet_tags = given.known.region_of(part) + 1
+    cell, region = given.known.cell_of(part) + 1, given.known.region_of(part) + 1
+    has_cells = cells != "none"
+    parts = Parts(
+        tuple(region_parts(geometry, given.sizes)),
+        tuple(each.options.get("material") for each in geometry.model.regions),
+        tuple(cell_parts(geometry, given.known, given.sizes)) if has_cells else (),
+        cell if has_cells else region,
+        tuple(surfaces),
+        triangles,
+        tags,
+    )
     result = TetMesh(
         geometry.model.name,
         points,
         tets,
-        tet_tags,
+        parts.of_tets,
         triangles,
         tags,
-        (*solid, *groups),
-        _unprojected(given, points, triangles, tags, groups),
+        (*parts.solids, *surfaces),
+        _unprojected(given, points, triangles, tags, surfaces),
         lengths=np.minimum(given.wish.at(points), given.chords.at(points)),
         source=geometry.model.source,
     )
-    return with_fields(geometry, result, asked, cell) if asked else result
+    result, parts = with_fields(geometry, result, parts, asked)
+    return replace(result, parts=parts, part_rows=np.arange(len(tags)))
 
 
 def _prepared(geometry: Geometry, wanted: Wanted, cells: Cells, tell: Progress) -> Prepared:

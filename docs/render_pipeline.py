@@ -135,7 +135,7 @@ def sheet_of(panels: list[tuple[str, list[Part]]]) -> Image.Image:
 def main(path: Path) -> None:
     """Compute, draw, write."""
     skeleton = decomp.skeleton(MODEL)
-    mesh = decomp.mesh(MODEL, size=SIZE)
+    mesh = decomp.mesh(MODEL, size=SIZE, volumes="cells")
     panels = [
         ("solid: exact faces", solid(skeleton)),
         ("skeleton: sheets", sheets(skeleton)),

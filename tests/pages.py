@@ -72,8 +72,8 @@ def _command(line: str) -> None:
 
 
 def _files(word: str) -> list[str]:
-    """The word, or the names of the files that it is a pattern of."""
-    return sorted(map(str, Path().glob(word))) if "*" in word else [word]
+    """The names of the files that a word is a pattern of, as a shell has them; else the word."""
+    return sorted(map(str, Path().glob(word))) or [word] if "*" in word else [word]
 
 
 def _transcript(text: str) -> None:

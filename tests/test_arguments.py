@@ -40,7 +40,7 @@ MESH = [
     ({"order": [2]}, "order must be one of 1, 2, got [2]"),
     ({"cells": "faces"}, "cells must be one of 'skeleton', 'face', 'none', got 'faces'"),
     ({"cells": np.array(["face"])}, "cells must be one of 'skeleton', 'face', 'none', got array"),
-    ({"volumes": 1}, "volumes must be one of 'cells', 'regions', got 1"),
+    ({"volumes": 1}, "volumes must be one of 'regions', 'cells', 'materials', got 1"),
     ({"sheets": "no"}, "sheets must be True or False, got 'no'"),
     ({"fields": "distance"}, "fields must be a list of names, such as ['distance'], got 'distance"),
     ({"fields": 1}, "fields must be a list of names"),

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 import numpy as np
 
 from decomp.carriers import Carrier
 from decomp.csg.options import Options
 from decomp.curves.base import Curve
+from decomp.errors import UnknownNameError
+from decomp.near import listed, near
+from decomp.shown import Shown
 from decomp.tolerance import Tolerances
 from decomp.vectors import Array
 
@@ -34,7 +39,7 @@ class Convexity(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Edge:
+class Edge(Shown):
     """A piece of curve along which two faces meet.
 
     Args:
@@ -80,7 +85,7 @@ class Edge:
 
 
 @dataclass(frozen=True, eq=False)
-class Vertex:
+class Vertex(Shown):
     """A point where edges end, or the apex of a cone inside a face."""
 
     point: Array
@@ -90,7 +95,7 @@ class Vertex:
 
 
 @dataclass(frozen=True, eq=False)
-class Face:
+class Face(Shown):
     """A connected part of the boundary on one carrier.
 
     Args:
@@ -115,7 +120,7 @@ class Face:
 
 
 @dataclass(frozen=True, eq=False)
-class RegionBoundary:
+class RegionBoundary(Shown):
     """The exact boundary of one region.
 
     Args:
@@ -148,6 +153,15 @@ class RegionBoundary:
     euler: int
     touches: tuple[str, ...] = ()
 
+    def _facts(self) -> Mapping[str, Any]:
+        names = ("name", "faces", "edges", "vertices", "volume", "area", "euler")
+        return {name: getattr(self, name) for name in names}
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[Any]]]:
+        kinds = (type(self.carriers[face.carrier]).__name__ for face in self.faces)
+        rows = ((f.name, kind, f.area) for f, kind in zip(self.faces, kinds, strict=True))
+        return ("face", "surface", "area"), rows
+
     @property
     def tolerances(self) -> Tolerances:
         """What counts as one, made from its size."""
@@ -162,9 +176,11 @@ class RegionBoundary:
         """The face with a given name.
 
         Raises:
-            KeyError: there is none.
+            UnknownNameError: (a `KeyError`) there is none.
         """
         for face in self.faces:
             if face.name == name:
                 return face
-        raise KeyError(name)
+        names = [face.name for face in self.faces]
+        hint = near(name, names) or f"; there are {listed(names)}"
+        raise UnknownNameError(f"region {self.name} has no face {name!r}{hint}")

@@ -22,6 +22,7 @@ from decomp.plain import plain
 
 PASSED = (
     *("size", "layers", "circle", "order", "cells", "volumes", "sheets", "fields"),
+    *("groups", "split_faces", "edges"),
     *("ascii", "msh2", "timeout", "quiet"),
 )
 """Options that are handed on."""

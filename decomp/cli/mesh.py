@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import add_output, positive
+from decomp.cli.groups import all_groups, named_patterns
 from decomp.cli.said import say
 
 if TYPE_CHECKING:
@@ -22,8 +23,10 @@ examples:
   decomp mesh part.geo -o part.vtu            for ParaView
   decomp mesh part.geo --size 2 --layers 3    edges of about 2, 3 across walls
   decomp mesh part.geo --order 2 -o part.inp  10-node tetrahedra for CalculiX
-  decomp mesh part.geo --volumes regions --no-sheets
-                                              one volume per region
+  decomp mesh part.geo --group 'bolts=*/bolt*.side' --group foot=part/base.zmin
+                                              names of your own for faces
+  decomp mesh part.geo --volumes cells --sheets
+                                              the skeleton's parts as groups
   decomp mesh part.geo --cells none           without a skeleton: faces, regions
   decomp mesh *.geo -o meshes --jobs 2        many models, two at a time
   decomp mesh part.geo --report part.json     figures for programs too
@@ -36,10 +39,10 @@ def register(commands: Any) -> None:
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "mesh",
-        help="a tetrahedral mesh with a name on every cell, face, interface and sheet",
-        description="Mesh a CSG model with tetrahedra that conform to its skeleton: every cell, "
-        "boundary face, interface and sheet is a physical group with a name, and nodes lie on the "
-        "exact surfaces.",
+        help="a tetrahedral mesh with a name on every region, face and interface",
+        description="Mesh a CSG model with tetrahedra that conform to its skeleton: every region, "
+        "boundary face and interface is a physical group with a name, each tetrahedron knows its "
+        "cell, and nodes lie on the exact surfaces.",
         epilog=EXAMPLES,
     )
     parser.add_argument(
@@ -105,12 +108,43 @@ def _tag_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--volumes",
-        choices=("cells", "regions"),
-        default="cells",
-        help="one volume for each cell (default) or for each region; without cells for each region",
+        choices=("regions", "cells", "materials"),
+        default="regions",
+        help="one volume for each region (default), for each cell, or for all regions with one "
+        "-material and each without one",
     )
     group.add_argument(
-        "--no-sheets", dest="sheets", action="store_false", help="tag no triangles between cells"
+        "--sheets",
+        action=argparse.BooleanOptionalAction,
+        default=False,
+        help="triangles between the cells of a region as groups too (default: they are none)",
+    )
+    group.add_argument(
+        "--group",
+        dest="groups",
+        type=named_patterns,
+        action="append",
+        default=[],
+        metavar="NAME=PATTERN,...",
+        help="one group for all faces, regions or edges that patterns stand for, such as "
+        "'bolts=*/bolt*.side'; may be given several times",
+    )
+    group.add_argument(
+        "--groups",
+        dest="group_file",
+        type=Path,
+        metavar="FILE.toml",
+        help='the same from a file: lines such as bolts = ["*/bolt*.side", "*/nut*.side"]',
+    )
+    group.add_argument(
+        "--split-faces",
+        action="store_true",
+        help="pieces of one face (base.zmax, base.zmax@2) as groups of their own (default: one)",
+    )
+    group.add_argument(
+        "--edges",
+        action="store_true",
+        help="edges and vertices as groups too, named by their faces: part/base.zmax&hole.side",
     )
 
 
@@ -156,6 +190,7 @@ def run(options: argparse.Namespace) -> None:
     from decomp.tetra.fields import checked_fields
     from decomp.tetra.report import as_json, as_text
 
+    options.groups = all_groups(options.groups, options.group_file)
     several = len(options.models) > 1 or options.jobs or options.format
     if several or any(path.is_dir() for path in options.output):
         from decomp.cli import batch
@@ -173,7 +208,7 @@ def run(options: argparse.Namespace) -> None:
         if path is not None:
             known_suffix(path, (suffix,), what)
     others = [path for path, *_ in more if path is not None]
-    check_outputs([*outputs, *others], [options.model])
+    check_outputs([*outputs, *others], [options.model, options.group_file])
     try:
         mesh, figures = meshed(options)
     except GeometryError as error:
@@ -252,13 +287,15 @@ def meshed(
             cells=options.cells,
             volumes=options.volumes,
             sheets=options.sheets,
+            groups=options.groups,
+            split_faces=options.split_faces,
+            edges=options.edges,
             fields=options.fields,
             timeout=options.timeout,
             progress=stages,
         )
         spent = stages.spent()
-    exact = {each.name: each.volume for each in geometry.regions}
-    return made, report(made, exact, spent, geometry.model.ignored)
+    return made, report(made, stages=spent, ignored=geometry.model.ignored)
 
 
 def _count(text: str) -> int:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
+from decomp.shown import Shown
 from decomp.vectors import Array, Bools, Ints
 
 
@@ -76,7 +77,7 @@ class LineKind(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
+class Patch(Shown):
     """Triangles on one surface.
 
     Args:
@@ -92,7 +93,7 @@ class Patch:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class Line(Shown):
     """A polyline on one curve.
 
     Args:
@@ -107,7 +108,7 @@ class Line:
 
 
 @dataclass(frozen=True, eq=False)
-class Complex:
+class Complex(Shown):
     """Patches and lines over shared points (n, 3)."""
 
     points: Array

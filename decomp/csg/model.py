@@ -12,12 +12,13 @@ from decomp.csg.options import OF_REGIONS, Options, checked
 from decomp.csg.packing import Packed, packed, unpacked
 from decomp.csg.solid import Solid, checked_name, checked_text
 from decomp.errors import InputError
+from decomp.shown import Shown
 
 EMPTY = "empty: its Boolean expression leaves no interior"
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
+class Region(Shown):
     """A named solid with options, such as `maxh`, the largest edge length wanted in it.
 
     Args:
@@ -54,7 +55,7 @@ class Ignored:
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class Model(Shown):
     """One or more regions with disjoint interiors, which may touch.
 
     Args:

@@ -8,11 +8,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from decomp.shown import Shown
 from decomp.vectors import Array
 
 
 @dataclass(frozen=True, eq=False)
-class Curve(ABC):
+class Curve(ABC, Shown):
     """A smooth curve in space.
 
     Attributes:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,50 +11,111 @@ import numpy as np
 from decomp.cells.surface import used_points
 from decomp.drawing.scene import Body, Field, Part, Scene
 from decomp.plain import plain
+from decomp.tetra.finest import finest
 from decomp.tetra.incidence import faces_of, row_keys
-from decomp.tetra.mesh import TetMesh
-from decomp.tetra.msh_reader import ReadMesh, read_msh
+from decomp.tetra.mesh import GroupKind, TetMesh
+from decomp.tetra.msh_reader import read_msh
 from decomp.tetra.quality import dihedral_angles, radius_ratios
 from decomp.vectors import Array, Bools, Ints
 
 QUALITY, ANGLE = "quality (3 r / R)", "least dihedral angle"
 
 
+@dataclass(frozen=True, eq=False)
+class _Given:
+    """What a scene is made of.
+
+    Args:
+        points: (n, 3) nodes.
+        tets: (m, 4 or 10).
+        tags: (m,) of the part that each tetrahedron is in.
+        solids: names of these parts by tag.
+        surfaces: names and triangles (k, 3) of each.
+        point_data, cell_data: fields by name.
+    """
+
+    points: Array
+    tets: Ints
+    tags: Ints
+    solids: Mapping[int, str]
+    surfaces: Sequence[tuple[str, Ints]]
+    point_data: Mapping[str, Array]
+    cell_data: Mapping[str, Array]
+
+
 def read(path: Path) -> Scene:
-    """The scene of a file, with its quality and all its fields.
+    """The scene of a file by cells, where it tells of them, with its quality and all its fields.
 
     Raises:
         FileError: it cannot be read, or has no tetrahedra.
     """
-    return _scene(plain(path.name), read_msh(path))
+    read = read_msh(path)
+    fine = finest(read)
+    count = len(read.triangles)
+    surfaces = _named(read.triangles, read.triangle_tags, _of_dimension(read.names, 2))
+    inner = _named(fine.triangles[count:], fine.triangle_tags[count:], _of_dimension(fine.names, 2))
+    given = _Given(
+        fine.points,
+        fine.tets,
+        fine.tet_tags,
+        _of_dimension(fine.names, 3),
+        [*surfaces, *inner],
+        fine.point_data,
+        fine.cell_data,
+    )
+    return _scene(plain(path.name), given)
 
 
 def scene_of(mesh: TetMesh) -> Scene:
-    """The scene of a mesh that was made."""
-    names = {(group.dimension, group.tag): group.name for group in mesh.groups}
-    as_read = ReadMesh(
+    """The scene of a mesh that was made, by cells, with its groups of triangles and all sheets."""
+    parts = mesh.all_parts
+    names = {group.tag: group.name for group in mesh.groups if group.dimension == 2}
+    inner = {
+        part.tag: part.name
+        for part in parts.surfaces
+        if part.kind is GroupKind.SHEET and part.name not in names.values()
+    }
+    rows = np.isin(parts.of_triangles, list(inner))
+    given = _Given(
         mesh.points,
         mesh.tets,
-        mesh.tet_tags,
-        mesh.triangles,
-        mesh.triangle_tags,
-        names,
-        point_data=mesh.point_data,
-        cell_data={name: each.astype(np.float64) for name, each in mesh.cell_data.items()},
+        parts.of_tets,
+        {part.tag: part.name for part in parts.solids},
+        [
+            *_named(mesh.triangles, mesh.triangle_tags, names),
+            *_named(parts.triangles[rows], parts.of_triangles[rows], inner),
+        ],
+        mesh.point_data,
+        {name: each.astype(np.float64) for name, each in mesh.cell_data.items()},
     )
-    return _scene(plain(mesh.name), as_read)
+    return _scene(plain(mesh.name), given)
 
 
-def _scene(title: str, mesh: ReadMesh) -> Scene:
-    corners, triangles = mesh.tets[:, :4], mesh.triangles[:, :3]
-    both = np.concatenate([np.pad(triangles, ((0, 0), (0, 1)), mode="edge"), corners])
-    points, both, used = used_points(mesh.points, both)
-    triangles, tets = both[: len(triangles), :3], both[len(triangles) :]
-    neighbours = neighbours_of(tets)
-    tags, part = np.unique(mesh.tet_tags, return_inverse=True)
-    body = Body(tets, part.reshape(-1).astype(np.int64), neighbours)
-    parts = [*_solids(mesh, body, tags), *_surfaces(mesh, triangles)]
-    return Scene(title, points, tuple(parts), tuple(_fields(mesh, points, tets, used)), body)
+def _of_dimension(names: Mapping[tuple[int, int], str], dimension: int) -> dict[int, str]:
+    return {tag: name for (own, tag), name in names.items() if own == dimension}
+
+
+def _named(triangles: Ints, tags: Ints, names: Mapping[int, str]) -> list[tuple[str, Ints]]:
+    """The triangles of each tag, with its name."""
+    return [
+        (names.get(tag, "") or f"surface {tag}", triangles[tags == tag, :3])
+        for tag in np.unique(tags).tolist()
+    ]
+
+
+def _scene(title: str, given: _Given) -> Scene:
+    rows = [given.tets[:, :4]]
+    rows += [np.pad(triangles, ((0, 0), (0, 1)), mode="edge") for _, triangles in given.surfaces]
+    points, numbers, used = used_points(given.points, np.concatenate(rows))
+    tets, *flat = np.split(numbers, np.cumsum([len(each) for each in rows])[:-1])
+    tags, part = np.unique(given.tags, return_inverse=True)
+    body = Body(tets, part.reshape(-1).astype(np.int64), neighbours_of(tets))
+    names = [given.solids.get(tag, "") or f"volume {tag}" for tag in tags.tolist()]
+    parts = list(_solids(body, names))
+    for (name, _), triangles in zip(given.surfaces, flat, strict=True):
+        group, region = _kind_of(name)
+        parts.append(Part(group, region, name, group, triangles[:, :3]))
+    return Scene(title, points, tuple(parts), tuple(_fields(given, points, tets, used)), body)
 
 
 def neighbours_of(tets: Ints) -> Ints:
@@ -84,19 +146,11 @@ def hull(body: Body, kept: Ints) -> tuple[Ints, Ints]:
     return faces_of(body.tets[kept])[rows], kept[rows // 4]
 
 
-def _solids(mesh: ReadMesh, body: Body, tags: Ints) -> Iterator[Part]:
+def _solids(body: Body, names: Sequence[str]) -> Iterator[Part]:
     faces, owner = hull(body, np.arange(len(body.tets)))
-    for number, tag in enumerate(tags.tolist()):
-        name = mesh.names.get((3, tag), "") or f"volume {tag}"
+    for number, name in enumerate(names):
         own = faces[body.part[owner] == number]
         yield Part("cell", name.partition("/")[0], name, "cell", own)
-
-
-def _surfaces(mesh: ReadMesh, triangles: Ints) -> Iterator[Part]:
-    for tag in np.unique(mesh.triangle_tags).tolist():
-        name = mesh.names.get((2, tag), "") or f"surface {tag}"
-        group, region = _kind_of(name)
-        yield Part(group, region, name, group, triangles[mesh.triangle_tags == tag])
 
 
 def _kind_of(name: str) -> tuple[str, str]:
@@ -108,10 +162,10 @@ def _kind_of(name: str) -> tuple[str, str]:
     return "interface", "|".join(side.partition("/")[0] for side in name.split("|"))
 
 
-def _fields(mesh: ReadMesh, points: Array, tets: Ints, used: Bools) -> Iterator[Field]:
+def _fields(given: _Given, points: Array, tets: Ints, used: Bools) -> Iterator[Field]:
     yield Field(QUALITY, False, radius_ratios(points, tets))
     yield Field(ANGLE, False, dihedral_angles(points, tets).min(axis=1))
-    for name, values in mesh.point_data.items():
+    for name, values in given.point_data.items():
         yield Field(name, True, np.asarray(values, dtype=np.float64)[used])
-    for name, values in mesh.cell_data.items():
+    for name, values in given.cell_data.items():
         yield Field(name, False, np.asarray(values, dtype=np.float64))

@@ -12,6 +12,7 @@ from decomp.csg.solid import checked_name, checked_text
 from decomp.errors import InputError
 from decomp.formats.native_schema import KNOWN
 from decomp.magnitude import check_magnitude
+from decomp.near import near
 from decomp.vectors import Array, frozen
 
 
@@ -31,7 +32,10 @@ class Item:
         for key in self.value:
             if key not in keys:
                 known = ", ".join(keys)
-                raise InputError(f"{self.where} has an unknown key {key!r}; known are {known}")
+                hint = near(str(key), keys)
+                raise InputError(
+                    f"{self.where} has an unknown key {key!r}; known are {known}{hint}"
+                )
 
     def get(self, key: str) -> Any:
         """The value of a key that must be there."""

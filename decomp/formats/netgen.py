@@ -31,6 +31,7 @@ from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_patte
 from decomp.formats.netgen_flags import Flag, options, plain
 from decomp.formats.netgen_solids import COPIES, PRIMITIVES, STEPS, WRITTEN, Vector
 from decomp.formats.source import Source
+from decomp.near import near
 from decomp.similarity import Similarity
 
 if TYPE_CHECKING:
@@ -244,6 +245,7 @@ class _Reader:
         if name == self.current:
             raise self.wrong(f"the solid {str(name)!r} refers to itself", name)
         message = f"the solid {str(name)!r} is not defined"
+        message += near(str(name), map(str, self.solids))
         if not self.solids and not self.current:
             message += f": {NO_SOLID}"
         later = re.compile(rf"\bsolid\s+{re.escape(name)}\s*=").search(

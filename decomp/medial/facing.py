@@ -20,6 +20,7 @@ from decomp.medial.facing_sheets import facing_sheets
 from decomp.medial.level_cut import LevelCut
 from decomp.medial.result import Skeleton
 from decomp.places import seen_from
+from decomp.shown import Shown
 from decomp.vectors import Array, Ints, cross, norm
 from decomp.vectors import number as finite
 
@@ -28,7 +29,7 @@ FACING = 120.0
 
 
 @dataclass(frozen=True, eq=False)
-class MidSurface:
+class MidSurface(Shown):
     """Triangles between walls that face each other, with the walls' distance.
 
     Args:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
 from decomp.parity import Parity as Parity
+from decomp.shown import Shown
 from decomp.sites.site import Site
 from decomp.vectors import Array
 
@@ -43,7 +46,7 @@ class Sheet:
 
 
 @dataclass(frozen=True, eq=False)
-class SkeletonLine:
+class SkeletonLine(Shown):
     """A seam (three or more sheets), a trim (two that go on smoothly) or a rim (one).
 
     Args:
@@ -62,7 +65,7 @@ class SkeletonLine:
 
 
 @dataclass(frozen=True, eq=False)
-class Junction:
+class Junction(Shown):
     """A point where seams end; on the boundary (radius 0) a vertex that they reach.
 
     Args:
@@ -112,7 +115,7 @@ class TrimSurface:
 
 
 @dataclass(frozen=True, eq=False)
-class Cell:
+class Cell(Shown):
     """A part of a region bounded by boundary faces, sheets and (face cells only) trim surfaces.
 
     Args:
@@ -158,7 +161,7 @@ class Certificate:
 
 
 @dataclass(frozen=True, eq=False)
-class RegionSkeleton:
+class RegionSkeleton(Shown):
     """The skeleton of one region.
 
     Args:
@@ -187,9 +190,13 @@ class RegionSkeleton:
     method: Method = Method.TRACED
     cause: str | None = None
 
+    def _facts(self) -> Mapping[str, Any]:
+        parts = ("name", "sheets", "seams", "trims", "rims", "junctions", "reflexive", "cells")
+        return {part: getattr(self, part) for part in parts} | {"method": self.method.value}
+
 
 @dataclass(frozen=True, eq=False)
-class Skeleton:
+class Skeleton(Shown):
     """The skeleton of a model, all regions over one complex.
 
     Args:
@@ -216,6 +223,37 @@ class Skeleton:
     source: Path | None = None
     offset: Array = field(default_factory=lambda: np.zeros(3))
     unmoved: Skeleton | None = None
+
+    def _facts(self) -> Mapping[str, Any]:
+        return {
+            "name": self.name,
+            "regions": tuple(region.name for region in self.regions),
+            "sheets": sum(len(region.sheets) for region in self.regions),
+            "junctions": sum(len(region.junctions) for region in self.regions),
+            "cells": sum(len(region.cells) for region in self.regions),
+            "triangles": sum(len(patch.triangles) for patch in self.complex.patches),
+            "tolerance": self.tolerance,
+        }
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[Any]]]:
+        rows = (
+            (r.name, r.method, len(r.sheets), len(r.junctions), len(r.cells), r.certificate.euler)
+            for r in self.regions
+        )
+        return ("region", "method", "sheets", "junctions", "cells", "Euler characteristic"), rows
+
+    def plot(self, **options: Any) -> Any:
+        """Show its sheets, coloured by radius, with PyVista, in a window or in a notebook.
+
+        Args:
+            options: of `pyvista.DataSet.plot`, such as `off_screen`, `screenshot`, `cpos`.
+
+        Raises:
+            MissingPackageError: pyvista is not installed.
+        """
+        from decomp.view.plot import plot_skeleton
+
+        return plot_skeleton(self, options)
 
     @property
     def local(self) -> Skeleton:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from decomp.boundary.topology import RegionBoundary
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError, InputError
+from decomp.shown import Shown
 from decomp.sites.box_tree import BoxTree, box_tree
 from decomp.sites.candidates import CandidateTree, candidate_tree
 from decomp.sites.crowded import FaceFinder, FaceLookup
@@ -26,7 +27,7 @@ from decomp.vectors import Array, Bools, Ints
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class Nearest(Shown):
     """The nearest sites of n points.
 
     Args:

@@ -1,10 +1,12 @@
 """Whether a mesh is a mesh of its model: what falls short, one line for each.
 
 1. By itself: elements the right way round, faces, tags (`check_structure`).
-2. Its names are the model's (`check_names`).
+2. Its names are the model's (`check_names`), and groups hold what they are named for.
 3. Regions have their volumes, but for what straight edges leave out.
 4. Nodes of triangles are on the surfaces that their groups are named for.
 5. No tetrahedron reaches out of its region or cell.
+
+Whatever groups a mesh has, 2 to 5 look at the finest parts that it tells of (`finest`).
 """
 
 from __future__ import annotations
@@ -22,10 +24,14 @@ from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.paths import path_of
 from decomp.places import place
+from decomp.shown import Shown
+from decomp.tetra.about import about
 from decomp.tetra.check_cells import KnownCells, cells_named
+from decomp.tetra.check_groups import group_shortcomings
 from decomp.tetra.check_names import Names, name_shortcomings, resolved, sides
 from decomp.tetra.check_structure import counted, structural_shortcomings
 from decomp.tetra.check_volumes import VolumeError, volume_errors
+from decomp.tetra.finest import finest
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.msh_reader import ReadMesh, read_msh
@@ -43,7 +49,7 @@ REACH = 2.0
 
 
 @dataclass(frozen=True)
-class Checked:
+class Checked(Shown):
     """What was found.
 
     Args:
@@ -129,10 +135,12 @@ def _rounding(points: Array) -> float:
 def _checked(
     geometry: Geometry, read: ReadMesh, limits: Limits, tell: Callable[[str, float], None]
 ) -> Checked:
-    epsilon = limits.epsilon
-    names = resolved(read.names, geometry)
+    epsilon, count = limits.epsilon, len(read.names)
     tell("looking at elements and faces", 0.1)
     lines = list(structural_shortcomings(read))
+    fine = finest(read)
+    lines += group_shortcomings(read, fine)
+    read, names = fine, resolved(fine.names, geometry)
     cells = sheets = None
     if names.cells or names.sheets:
         given = {*names.cells.values(), *(n for s in names.sheets.values() for n in sides(s))}
@@ -156,7 +164,7 @@ def _checked(
         tuple(lines),
         len(read.tets),
         len(read.points),
-        len(read.names),
+        count,
         max(abs(error.whole) for error in errors),
         max(abs(error.chords) for error in errors),
         max(abs(error.unexplained) for error in errors),
@@ -172,7 +180,21 @@ def _as_read(mesh: TetMesh | ReadMesh | str | Path) -> ReadMesh:
         return read_msh(path_of(mesh, "the mesh's file"))
     names = {(group.dimension, group.tag): group.name for group in mesh.groups}
     return ReadMesh(
-        mesh.points, mesh.tets, mesh.tet_tags, mesh.triangles, mesh.triangle_tags, names
+        mesh.points,
+        mesh.tets,
+        mesh.tet_tags,
+        mesh.triangles,
+        mesh.triangle_tags,
+        names,
+        mesh.all_parts.of_tets,
+        mesh.triangle_parts,
+        mesh.lines,
+        mesh.line_tags,
+        mesh.nodes,
+        mesh.node_tags,
+        mesh.point_data,
+        {"cell": mesh.all_parts.of_tets.astype(np.float64)} if mesh.all_parts.cells else {},
+        about(mesh),
     )
 
 

@@ -8,14 +8,18 @@ import numpy as np
 
 from decomp.optional import needed
 from decomp.tetra.incidence import incidence
+from decomp.tetra.lower import lower_blocks
 from decomp.tetra.ordering import in_vtk_order
+from decomp.tetra.parts import looked_up
 
 if TYPE_CHECKING:
     from decomp.tetra.mesh import TetMesh
 
-TRIANGLES = {3: "triangle", 6: "triangle6"}
+MESHIO = {1: "vertex", 3: "line", 21: "line3", 5: "triangle", 22: "triangle6"}
+"""meshio's names of types of elements by VTK's numbers."""
 TETS = {4: "tetra", 10: "tetra10"}
-VTK_TYPES = {3: 5, 6: 22, 4: 10, 10: 24}
+VTK_TYPES = {4: 10, 10: 24}
+"""VTK's types of tetrahedra by number of nodes."""
 
 
 def to_meshio(mesh: TetMesh) -> Any:
@@ -29,23 +33,25 @@ def to_meshio(mesh: TetMesh) -> Any:
         MissingPackageError: meshio is not installed.
     """
     meshio = needed("meshio", "meshio", "mesh.to_meshio()")
-    tags = [mesh.triangle_tags, mesh.tet_tags]
+    lower = lower_blocks(mesh)
+    tags = [*(block.tags for block in lower), mesh.tet_tags]
+    dimensions = [*(block.dimension for block in lower), 3]
     sets: dict[str, list[Any]] = {}
     for group in mesh.groups:
         rows = sets.setdefault(group.name, [np.empty(0, dtype=np.int64) for _ in tags])
-        block = group.dimension - 2
+        block = dimensions.index(group.dimension)
         rows[block] = np.flatnonzero(tags[block] == group.tag)
     ordered = sorted(mesh.groups, key=lambda group: -group.dimension)
     return meshio.Mesh(
         mesh.points,
         [
-            (TRIANGLES[mesh.triangles.shape[1]], mesh.triangles),
+            *((MESHIO[block.vtk], block.elements) for block in lower),
             (TETS[mesh.tets.shape[1]], in_vtk_order(mesh.tets)),
         ],
         point_data=dict(mesh.point_data),
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags}
         | {
-            name: [np.full(len(mesh.triangles), -1), values]
+            name: [*(np.full(len(block.tags), -1) for block in lower), values]
             for name, values in mesh.cell_data.items()
         },
         field_data={group.name: np.array([group.tag, group.dimension]) for group in ordered},
@@ -56,8 +62,8 @@ def to_meshio(mesh: TetMesh) -> Any:
 def to_pyvista(mesh: TetMesh) -> Any:
     """A `pyvista.UnstructuredGrid` of the tetrahedra.
 
-    Cell data: `group` (tag) and `region` (index into field data `regions`). Field data: `names`,
-    in the order of `tags`.
+    Cell data: `group` (tag), `region` (index into field data `regions`), and `cell`, where there
+    are cells. Field data: `names`, in the order of `tags`.
 
     Raises:
         MissingPackageError: pyvista is not installed.
@@ -84,8 +90,8 @@ def to_pyvista(mesh: TetMesh) -> Any:
 def to_skfem(mesh: TetMesh) -> Any:
     """A `skfem.MeshTet1` or `MeshTet2` with named subdomains and boundaries.
 
-    Subdomains are the volumes, and each region of several cells by its own name if no volume has
-    it; boundaries are the surfaces, oriented as the mesh's triangles are.
+    Subdomains are the volumes, and each region by its own name if no volume has it; boundaries are
+    the surfaces, oriented as the mesh's triangles are.
 
     Raises:
         MissingPackageError: scikit-fem is not installed.
@@ -114,19 +120,18 @@ def to_skfem(mesh: TetMesh) -> Any:
 
 
 def region_names(mesh: TetMesh) -> list[str]:
-    """The names of the regions, in the order in which the groups name them."""
-    return list(dict.fromkeys(name for group in mesh.groups for name in group.regions))
+    """The names of the regions, in the model's order."""
+    return [region.name for region in mesh.all_parts.regions]
 
 
 def region_numbers(mesh: TetMesh, dimension: int) -> Any:
-    """For each element of a dimension the place of its first region in `region_names`."""
-    tags = mesh.tet_tags if dimension == 3 else mesh.triangle_tags
-    names = region_names(mesh)
-    table = np.full(int(tags.max(initial=0)) + 1, -1, dtype=np.int64)
-    for group in mesh.groups:
-        if group.dimension == dimension and group.regions and group.tag < len(table):
-            table[group.tag] = names.index(group.regions[0])
-    return table[tags]
+    """For each tetrahedron or triangle the place of its first region in `region_names`."""
+    parts = mesh.all_parts
+    place = {region.name: k for k, region in enumerate(parts.regions)}
+    if dimension == 3:
+        return looked_up({r.tag: place[r.name] for r in parts.regions}, parts.region_of_tets)
+    table = {s.tag: place.get(s.regions[0], -1) for s in parts.surfaces if s.regions}
+    return looked_up(table, mesh.triangle_parts)
 
 
 def _facets(mesh: TetMesh, result: Any) -> tuple[Any, Any]:

@@ -7,7 +7,7 @@
   does.
 - `nearest` (tetrahedra): the tag of the surface group of the face that is nearest to the centroid;
   a reentrant edge counts as the face that owns it.
-- `cell` (tetrahedra): number of the cell, from 1, in the order of the groups of cells.
+- `cell` (tetrahedra): number of the cell, from 1; every mesh with cells has it.
 - `region` (tetrahedra): number of the region, from 0.
 """
 
@@ -21,10 +21,11 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.errors import InputError
 from decomp.geometry import Geometry
+from decomp.near import near
 from decomp.sites.site import SiteKind
 from decomp.tetra.cells import site_owners
-from decomp.tetra.convert import region_names
 from decomp.tetra.mesh import GroupKind, TetMesh
+from decomp.tetra.parts import Parts
 from decomp.tracing.balls import inscribed_balls
 from decomp.vectors import Array, Ints, norm
 
@@ -45,7 +46,8 @@ def checked_fields(names: Sequence[str], with_cells: bool = True) -> tuple[str, 
     names = tuple(names)
     for name in names:
         if name not in FIELDS:
-            raise InputError(f"{name!r} is no field; there are {', '.join(FIELDS)}")
+            hint = near(str(name), FIELDS)
+            raise InputError(f"{name!r} is no field; there are {', '.join(FIELDS)}{hint}")
         if name == "cell" and not with_cells:
             raise InputError(
                 "the field 'cell' tells of cells, and a mesh with --cells none has none: leave it "
@@ -54,39 +56,37 @@ def checked_fields(names: Sequence[str], with_cells: bool = True) -> tuple[str, 
     return tuple(dict.fromkeys(names))
 
 
-def with_fields(geometry: Geometry, mesh: TetMesh, names: Sequence[str], cells: Ints) -> TetMesh:
-    """A mesh with values on it.
+def with_fields(
+    geometry: Geometry, mesh: TetMesh, parts: Parts, names: Sequence[str]
+) -> tuple[TetMesh, Parts]:
+    """A mesh with values on it, and its parts with what groups' tags are made of.
 
     Args:
         geometry: that it is a mesh of.
         mesh: to give fields to.
+        parts: of it.
         names: of `FIELDS`.
-        cells: (m,) the number of each tetrahedron's cell.
 
     Raises:
         InputError: a name is unknown.
         GeometryError: the ball at a point cannot be found; says where.
     """
     at_nodes: dict[str, Array] = {}
-    at_tets: dict[str, Ints] = {}
+    at_tets: dict[str, Ints] = {"cell": parts.of_tets} if parts.cells else {}
     for name in checked_fields(names):
         if name == "distance":
             at_nodes[name] = geometry.index.nearest(mesh.points).distance
         elif name == "thickness":
-            at_nodes[name] = thickness(geometry, mesh)
+            at_nodes[name] = thickness(geometry, mesh, parts.region_of_tets - 1)
         elif name == "nearest":
-            at_tets[name] = nearest_surfaces(geometry, mesh)
-        elif name == "cell":
-            at_tets[name] = cells
-        else:
-            names_of = [each.name for each in geometry.regions]
-            numbers = np.array([region_names(mesh).index(each) for each in names_of])
-            at_tets[name] = numbers[_regions(geometry, mesh)]
-    return replace(mesh, point_data=at_nodes, cell_data=at_tets)
+            parts = replace(parts, nearest=nearest_surfaces(geometry, mesh, parts))
+        elif name == "region":
+            at_tets[name] = parts.region_of_tets - 1
+    return replace(mesh, point_data=at_nodes, cell_data=at_tets), parts
 
 
-def thickness(geometry: Geometry, mesh: TetMesh) -> Array:
-    """The local thickness (n,) at the nodes, see above.
+def thickness(geometry: Geometry, mesh: TetMesh, of_tet: Ints) -> Array:
+    """The local thickness (n,) at the nodes, see above; the tetrahedra's regions (m,) are known.
 
     At nodes on the boundary it is that of a point close to it, inside the tetrahedron at the node
     whose centroid is deepest in its region.
@@ -94,7 +94,6 @@ def thickness(geometry: Geometry, mesh: TetMesh) -> Array:
     index = geometry.index
     points = np.array(mesh.points)
     centre = mesh.points[mesh.tets[:, :4]].mean(axis=1)
-    of_tet = _regions(geometry, mesh)
     order = np.argsort(index.nearest(centre).distance, kind="stable")
     owner = np.empty(len(points), dtype=np.int64)
     owner[mesh.tets[order]] = order[:, None]  # the deepest is written last
@@ -129,25 +128,15 @@ def _inward(
     return result
 
 
-def nearest_surfaces(geometry: Geometry, mesh: TetMesh) -> Ints:
-    """The tag (m,) of the surface group that is nearest to each tetrahedron's centroid."""
-    outer = [g for g in mesh.groups if g.kind in (GroupKind.FACE, GroupKind.INTERFACE)]
-    tags = {part: group.tag for group in outer for part in group.name.split("|")}
+def nearest_surfaces(geometry: Geometry, mesh: TetMesh, parts: Parts) -> Ints:
+    """The tag (m,) of the face or interface that is nearest to each tetrahedron's centroid."""
+    outer = [s for s in parts.surfaces if s.kind is not GroupKind.SHEET]
+    tags = {side: surface.tag for surface in outer for side in surface.sides}
     owner = site_owners(geometry.sites, geometry.regions)
     table = np.full(len(geometry.sites), -1, dtype=np.int64)
     for number, site in enumerate(geometry.sites):
         if site.region >= 0:
             boundary = geometry.regions[site.region]
-            table[number] = tags[f"{boundary.name}/{boundary.faces[owner[number]].name}"]
+            table[number] = tags[boundary.name, boundary.faces[owner[number]].name]
     centre = mesh.points[mesh.tets[:, :4]].mean(axis=1)
     return table[geometry.index.nearest(centre).site]
-
-
-def _regions(geometry: Geometry, mesh: TetMesh) -> Ints:
-    """The region (m,) of each tetrahedron, as a number into the geometry's."""
-    number = {each.name: k for k, each in enumerate(geometry.regions)}
-    table = np.full(int(mesh.tet_tags.max(initial=0)) + 1, -1, dtype=np.int64)
-    for group in mesh.groups:
-        if group.dimension == 3:
-            table[group.tag] = number[group.regions[0]]
-    return table[mesh.tet_tags]

@@ -1,4 +1,4 @@
-"""Names and tags of the parts of a mesh."""
+"""Names and tags of the parts of a mesh: its regions, cells, faces, interfaces and sheets."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ import numpy as np
 from decomp.complex.model import PatchKind
 from decomp.geometry import Geometry
 from decomp.tetra.cells import OUTSIDE, CellMap
+from decomp.tetra.group import Group, GroupKind
 from decomp.tetra.layout import Layout
-from decomp.tetra.mesh import Group, GroupKind
 from decomp.tetra.surface import MeshSurface
 from decomp.tetra.tagging import Tagged
 from decomp.vectors import Array, Ints
 
 
-def cell_groups(geometry: Geometry, cells: CellMap, sizes: Array) -> list[Group]:
-    """A group for each cell, in their order; the largest lengths (r,) are asked in the regions."""
+def cell_parts(geometry: Geometry, cells: CellMap, sizes: Array) -> list[Group]:
+    """A part for each cell, in their order; the largest lengths (r,) are asked in the regions."""
     found = []
     for number, cell in enumerate(cells.cells):
         region = geometry.model.regions[int(cells.region[number])]
@@ -34,8 +34,8 @@ def cell_groups(geometry: Geometry, cells: CellMap, sizes: Array) -> list[Group]
     return found
 
 
-def region_groups(geometry: Geometry, sizes: Array) -> list[Group]:
-    """A group for each region, in their order; the largest lengths (r,) are asked in them."""
+def region_parts(geometry: Geometry, sizes: Array) -> list[Group]:
+    """A part for each region, in their order; the largest lengths (r,) are asked in them."""
     return [
         Group(
             GroupKind.REGION,
@@ -51,23 +51,21 @@ def region_groups(geometry: Geometry, sizes: Array) -> list[Group]:
     ]
 
 
-def surface_groups(
+def surface_parts(
     geometry: Geometry,
     surface: MeshSurface,
     cells: CellMap,
     plan: Layout,
     tagged: Tagged,
-    sheets: bool,
     sizes: Array,
 ) -> tuple[list[Group], Ints]:
-    """Groups of boundary faces, interfaces and sheets, and each triangle's tag, 0 for none.
+    """Boundary faces, interfaces and sheets, and each triangle's tag, 0 for none.
 
-    Every face and interface of the model has a group, a pair of cells where triangles part them.
+    Every face and interface of the model is a part, a pair of cells where triangles part them.
 
     Args:
         geometry, surface, cells, plan: of the model.
         tagged: the triangles.
-        sheets: whether sheets get groups.
         sizes: (r,) the largest length asked in each region.
     """
     names = [region.name for region in geometry.model.regions]
@@ -95,6 +93,7 @@ def surface_groups(
                     len(groups) + 1,
                     "|".join(full),
                     tuple(names[r] for r, _ in sides),
+                    tuple(face.name for face in faces),
                     maxh=maxh,
                     bc=bc,
                     length=least if maxh is None else min(least, maxh),
@@ -102,12 +101,11 @@ def surface_groups(
             )
         tag_of_patch[patch] = of_face[sides]
     tags = tag_of_patch[tagged.patches]
-    if sheets:
-        _sheet_groups(surface, cells, plan, tagged, groups, tags)
+    _sheet_parts(surface, cells, plan, tagged, groups, tags)
     return groups, tags
 
 
-def _sheet_groups(
+def _sheet_parts(
     surface: MeshSurface,
     cells: CellMap,
     plan: Layout,
@@ -115,7 +113,7 @@ def _sheet_groups(
     groups: list[Group],
     tags: Ints,
 ) -> None:
-    """One group for each two cells that touch; sets the tags of their triangles."""
+    """One part for each two cells that touch; sets the tags of their triangles."""
     kinds = [patch.kind for patch in plan.complex.patches]
     sheet = np.array([kind is PatchKind.SHEET for kind in kinds])[tagged.patches]
     inner = (tagged.cells[:, 1] != OUTSIDE) & sheet

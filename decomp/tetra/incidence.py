@@ -11,6 +11,9 @@ from decomp.vectors import Array, Ints
 FACES: Ints = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 """The faces of a positively oriented tetrahedron, counterclockwise seen from outside."""
 
+MIDDLES: Ints = np.array([[6, 5, 4], [4, 9, 7], [5, 8, 9], [7, 8, 6]])
+"""The middle nodes of these faces in quadratic tetrahedra, on edges 01, 12, 20 of each."""
+
 
 def row_keys(rows: Ints) -> Ints:
     """One number (n,) for each row (n, c) of indices, the same for rows of the same indices.

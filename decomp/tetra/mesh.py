@@ -1,13 +1,21 @@
-"""The tetrahedral mesh of a model, with a name on every cell, face, interface and sheet."""
+"""The tetrahedral mesh of a model: its elements, its named groups, and what groups are made of."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from enum import Enum
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from decomp.shown import Shown
+from decomp.tetra.group import NOUNS
+from decomp.tetra.group import Group as Group
+from decomp.tetra.group import GroupKind as GroupKind
+from decomp.tetra.group_names import named, selected
+from decomp.tetra.grouping import Chosen, Volumes, grouped
+from decomp.tetra.parts import Parts, looked_up, of_groups
 from decomp.vectors import Array, Ints
 
 if TYPE_CHECKING:
@@ -16,54 +24,15 @@ if TYPE_CHECKING:
     import skfem  # type: ignore[import-untyped]
 
 
-class GroupKind(Enum):
-    """What a physical group is: of tetrahedra a cell or a region, else of triangles."""
-
-    CELL = "cell"
-    REGION = "region"
-    FACE = "face"
-    INTERFACE = "interface"
-    SHEET = "sheet"
-
-
-@dataclass(frozen=True)
-class Group:
-    """A named set of elements, written as a physical group.
-
-    Args:
-        kind: what it is; tells the dimension.
-        tag: positive, unique among the groups of its dimension; also the tag of its entity.
-        name: unique among the groups of its dimension, such as `part/hole.side`.
-        regions: names of the regions that it is of (cells, regions, faces: one; interfaces: two).
-        faces: names of the boundary faces of a cell; empty for other kinds.
-        volume: exact-complex volume of a cell or exact volume of a region, in model units cubed;
-            None for triangles.
-        maxh: largest edge length that the input file asks for in this region, or on this face or
-            interface; None for none.
-        bc: boundary condition number of the input file (Netgen's `-bc`), None for none.
-        length: largest edge length asked for there, of `maxh`, the user's size and the default;
-            None if unknown, and for sheets.
-    """
-
-    kind: GroupKind
-    tag: int
-    name: str
-    regions: tuple[str, ...]
-    faces: tuple[str, ...] = ()
-    volume: float | None = None
-    maxh: float | None = None
-    bc: int | None = None
-    length: float | None = None
-
-    @property
-    def dimension(self) -> int:
-        """3 for cells and regions, 2 for the others."""
-        return 3 if self.kind in (GroupKind.CELL, GroupKind.REGION) else 2
+NO_TAGS: Ints = np.empty(0, dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)
-class TetMesh:
-    """A conforming mesh. Every tetrahedron and every tagged triangle is in exactly one group.
+class TetMesh(Shown):
+    """A conforming mesh. Every tetrahedron, and every other element, is in exactly one group.
+
+    What it is made of at the finest, `parts`, stays whatever groups are made of it: `grouped`
+    makes others.
 
     Args:
         name: the model's.
@@ -74,13 +43,20 @@ class TetMesh:
         triangles: (k, 3) or (k, 6) faces of tets; boundary triangles point out of the region,
             mid-edge nodes on edges 01, 12, 20.
         triangle_tags: (k,) the tag of each one's group of dimension 2.
-        groups: those of dimension 3 first, each kind in ascending order of tags.
+        groups: those of dimension 3 first, then 2, 1 and 0, each in ascending order of tags.
         unprojected: nodes on the boundary, interfaces or sheets that could not be moved onto their
             exact geometry without spoiling a tetrahedron; ascending.
         point_data: (n,) values at nodes by name: the fields asked for, see `decomp.tetra.fields`.
-        cell_data: (m,) values of tetrahedra by name.
+        cell_data: (m,) values of tetrahedra by name; `cell`, the number of its cell from 1, where
+            there are cells.
         lengths: (n,) edge length wanted at each node; None if unknown.
         source: the file that the model was read from, if any; no output may replace it.
+        lines: (e, 2) or (e, 3) edges of triangles, with the middle node last.
+        line_tags: (e,) the tag of each one's group of dimension 1.
+        nodes: (p,) nodes at vertices.
+        node_tags: (p,) the tag of each one's group of dimension 0.
+        parts: regions, cells, faces, interfaces and sheets; None if groups are all that is known.
+        part_rows: (k,) the row of each triangle in `parts.triangles`.
     """
 
     name: str
@@ -95,22 +71,123 @@ class TetMesh:
     cell_data: Mapping[str, Ints] = field(default_factory=dict)
     lengths: Array | None = None
     source: Path | None = None
+    lines: Ints = field(default_factory=lambda: NO_TAGS.reshape(0, 2))
+    line_tags: Ints = field(default_factory=lambda: NO_TAGS)
+    nodes: Ints = field(default_factory=lambda: NO_TAGS)
+    node_tags: Ints = field(default_factory=lambda: NO_TAGS)
+    parts: Parts | None = None
+    part_rows: Ints | None = None
 
     @property
     def order(self) -> int:
         """1 for straight, 2 for quadratic elements."""
         return 1 if self.tets.shape[1] == 4 else 2
 
-    def group(self, name: str, dimension: int | None = None) -> Group:
-        """The group of a name; without a dimension (2 or 3) a volume comes before a surface.
+    @property
+    def all_parts(self) -> Parts:
+        """The parts; where they are unknown each group is one."""
+        if self.parts is not None:
+            return self.parts
+        return of_groups(self.groups, self.tet_tags, self.triangles, self.triangle_tags)
+
+    @property
+    def triangle_parts(self) -> Ints:
+        """The tag (k,) of each triangle's part."""
+        if self.parts is None or self.part_rows is None:
+            return self.triangle_tags
+        return self.parts.of_triangles[self.part_rows]
+
+    def _facts(self) -> Mapping[str, Any]:
+        kinds = {3: "volumes", 2: "surfaces", 1: "curves", 0: "points"}
+        counts = {
+            what: tuple(g.name for g in self.groups if g.dimension == d) or None
+            for d, what in kinds.items()
+        }
+        return {
+            "name": self.name,
+            "nodes": len(self.points),
+            "tetrahedra": len(self.tets),
+            "order": self.order,
+            "cells": len(self.all_parts.cells) or None,
+            **counts,
+            "fields": (*self.point_data, *self.cell_data) or None,
+        }
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[Any]]]:
+        tags = (self.node_tags, self.line_tags, self.triangle_tags, self.tet_tags)
+        rows = (
+            (g.name, NOUNS[g.dimension], g.tag, int((tags[g.dimension] == g.tag).sum()))
+            for g in self.groups
+        )
+        return ("group", "of", "tag", "elements"), rows
+
+    def summary(self) -> str:
+        """What `decomp mesh` prints: counts, volumes, lengths of edges, groups, quality."""
+        from decomp.tetra.report import as_text, report
+
+        return "\n".join(as_text(report(self)))
+
+    def plot(self, scalars: str = "group", **options: Any) -> Any:
+        """Show it with PyVista, in a window or in a notebook.
+
+        Args:
+            scalars: what it is coloured by: `group`, `region`, `cell`, or a field.
+            options: of `pyvista.DataSet.plot`, such as `off_screen`, `screenshot`, `cpos`.
 
         Raises:
-            KeyError: there is none.
+            InputError: there are no such values.
+            MissingPackageError: pyvista is not installed.
         """
-        for group in self.groups:
-            if group.name == name and dimension in (None, group.dimension):
-                return group
-        raise KeyError(name)
+        from decomp.view.plot import plot_mesh
+
+        return plot_mesh(self, scalars, options)
+
+    def group(self, name: str, dimension: int | None = None) -> Group:
+        """The group of a name.
+
+        Args:
+            name: of it.
+            dimension: 3 for a volume, 2 for a surface, 1 for a curve, 0 for a point. Without it
+                there must be one group of the name: a cell of one face has the face's.
+
+        Raises:
+            UnknownNameError: (a `KeyError`) there is none, or more than one.
+        """
+        return named(self.groups, name, dimension)
+
+    def select(self, pattern: str, dimension: int | None = None) -> tuple[Group, ...]:
+        """The groups whose names a pattern stands for, such as `*/bolt*.side`.
+
+        In each part of a name (`region/face`) `*` stands for any characters, `?` for one and `[ab]`
+        for one of some. Without `/` and `.` a pattern stands for regions and names without these;
+        without `/` for faces in any region. An interface is selected by either of its sides.
+
+        Args:
+            pattern: for names (`decomp.tetra.patterns`).
+            dimension: of the groups, 3 to 0; None for any.
+
+        Raises:
+            UnknownNameError: (a `KeyError`) there is none.
+        """
+        return selected(self.groups, pattern, dimension)
+
+    def grouped(
+        self,
+        *,
+        volumes: Volumes = "regions",
+        sheets: bool = False,
+        groups: Mapping[str, str | Sequence[str]] | None = None,
+        split_faces: bool = False,
+        edges: bool = False,
+    ) -> TetMesh:
+        """The same mesh with other groups; the arguments are those of `decomp.mesh`.
+
+        Raises:
+            InputError: an argument is of a wrong kind, a pattern stands for nothing, two for the
+                same, or a group's name is taken.
+        """
+        chosen = Chosen(volumes, sheets, {} if groups is None else groups, split_faces, edges)
+        return regrouped(self, chosen)
 
     def write(self, path: str | Path, *, text: bool = False, version: str = "4.1") -> None:
         """Write to a file, whole or not at all.
@@ -147,3 +224,30 @@ class TetMesh:
         from decomp.tetra.convert import to_skfem
 
         return to_skfem(self)
+
+
+def regrouped(mesh: TetMesh, chosen: Chosen) -> TetMesh:
+    """A mesh with groups as they are chosen.
+
+    Raises:
+        InputError: see `TetMesh.grouped`.
+    """
+    parts = mesh.all_parts
+    made = grouped(parts, chosen)
+    cell_data = dict(mesh.cell_data)
+    if parts.nearest is not None:
+        cell_data["nearest"] = looked_up(dict(made.surface_tags), parts.nearest)
+    return replace(
+        mesh,
+        groups=made.groups,
+        tet_tags=made.tet_tags,
+        triangles=parts.triangles[made.rows],
+        triangle_tags=made.triangle_tags,
+        lines=made.lines,
+        line_tags=made.line_tags,
+        nodes=made.nodes,
+        node_tags=made.node_tags,
+        cell_data=cell_data,
+        parts=parts,
+        part_rows=made.rows,
+    )

@@ -24,8 +24,8 @@ Key = tuple[int, int]
 """Dimension and tag of a group."""
 
 
-def names_section(names: Iterable[tuple[Key, str]]) -> bytes:
-    """The sections for some names, in their order."""
+def names_section(names: Iterable[tuple[Key, str]], more: Iterable[bytes] = ()) -> bytes:
+    """The sections for some names, in their order; the comments hold some lines more."""
     lines, whole = [], []
     for (dimension, tag), name in names:
         text = _escaped(name).encode()
@@ -35,8 +35,9 @@ def names_section(names: Iterable[tuple[Key, str]]) -> bytes:
         lines.append(b'%d %d "%s"' % (dimension, tag, text))
     count = str(len(lines)).encode()
     parts = [b"$PhysicalNames", count, *lines, b"$EndPhysicalNames", b""]
-    if whole:
-        parts[-1:] = [b"$Comments", *whole, b"$EndComments", b""]
+    comments = [*whole, *more]
+    if comments:
+        parts[-1:] = [b"$Comments", *comments, b"$EndComments", b""]
     return b"\n".join(parts)
 
 

@@ -13,6 +13,8 @@ import numpy as np
 
 from decomp.errors import FileError
 from decomp.magnitude import LARGEST
+from decomp.shown import Shown
+from decomp.tetra.about import About
 from decomp.tetra.msh_data import read_data
 from decomp.tetra.msh_sections import Numbers, Sections, sections
 from decomp.vectors import Array, Ints
@@ -26,7 +28,7 @@ NONE, SEVERAL = 0, -1
 
 
 @dataclass(frozen=True, eq=False)
-class ReadMesh:
+class ReadMesh(Shown):
     """A mesh as a file has it.
 
     Args:
@@ -44,6 +46,7 @@ class ReadMesh:
         node_tags: (p,) like `tet_tags`.
         point_data: (n,) values at nodes by name, where all have one.
         cell_data: (m,) values of tetrahedra by name, where all have one.
+        about: what the file tells of groups and parts, if decomp has written it.
     """
 
     points: Array
@@ -60,6 +63,7 @@ class ReadMesh:
     node_tags: Ints = field(default_factory=lambda: np.empty(0, dtype=np.int64))
     point_data: Mapping[str, Array] = field(default_factory=dict)
     cell_data: Mapping[str, Array] = field(default_factory=dict)
+    about: About | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,6 +132,7 @@ def read_msh(path: str | Path) -> ReadMesh:
         corners.tags,
         {name: values for name, values in at_nodes.items() if values is not None},
         {name: values for name, values in of_tets.items() if values is not None},
+        parts.about,
     )
 
 

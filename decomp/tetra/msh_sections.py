@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.errors import FileError
+from decomp.tetra.about import About, read_about
 from decomp.tetra.msh_names import read_names
 
 LARGEST_WHOLE = {4: 2**31 - 1, 8: 2**53}
@@ -89,6 +90,7 @@ class Sections:
         path: of the file.
         version: of the format.
         names: of the physical groups, by dimension and tag.
+        about: what the comments tell of groups and parts, if they are decomp's.
         data: the kind (`NodeData` or `ElementData`) and body of each field.
         binary: whether numbers are binary, else text.
     """
@@ -96,6 +98,7 @@ class Sections:
     path: str | Path
     version: float
     names: dict[tuple[int, int], str]
+    about: About | None
     data: tuple[tuple[str, bytes], ...]
     _bodies: dict[str, bytes]
     binary: bool
@@ -153,7 +156,9 @@ def sections(path: str | Path) -> Sections:
     comments = b"\n".join(body for name, body in found if name == "Comments")
     names = read_names(bodies.get("PhysicalNames", b""), comments)
     fields = tuple(each for each in found if each[0] in ("NodeData", "ElementData"))
-    return Sections(path, float(head[1]), names, fields, bodies, binary, bool(swapped))
+    return Sections(
+        path, float(head[1]), names, read_about(comments), fields, bodies, binary, bool(swapped)
+    )
 
 
 def _words(body: bytes) -> NDArray[np.float64]:

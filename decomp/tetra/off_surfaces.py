@@ -1,7 +1,8 @@
 """How far nodes are off the exact surfaces that their triangles' groups are named for.
 
 A mesh's report and its check both count by this. Faces and interfaces are carriers; a sheet is the
-surface between two sites, one of each of its two cells, or one of several such surfaces.
+surface between two sites, one of each of its two cells, or one of several such surfaces. Between
+the cells of faces there are trim surfaces too.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ import numpy as np
 
 from decomp.complex.refine_elements import Elements
 from decomp.geometry import Geometry
-from decomp.tetra.check_names import Names, sides
-from decomp.tetra.surface import MeshSurface
+from decomp.tetra.check_names import Names, Sides, sides
+from decomp.tetra.surface import MeshSurface, RegionSurface
 from decomp.tetra.targets import SURFACE, placed
 from decomp.vectors import Array, Ints, norm
 
@@ -56,9 +57,22 @@ def known_sheets(surface: MeshSurface, elements: Elements, names: Sequence[str])
         for patch, sites in region.sheets.items():
             cells = frozenset(names[site] for site in sites)
             between.setdefault(cells, {})[int(elements.of_patch[patch])] = None
+        for patch, cells in _trims(region).items():
+            between.setdefault(cells, {})[int(elements.of_patch[patch])] = None
     return KnownSheets(
         elements, surface.complex.points, {cells: tuple(own) for cells, own in between.items()}
     )
+
+
+def _trims(region: RegionSurface) -> dict[int, frozenset[str]]:
+    """The patches that part two cells and are no sheets, with the names of the two."""
+    outer = {patch for sides in region.face_sides for patch, _ in sides}
+    found: dict[int, list[str]] = {}
+    for cell in region.cells:
+        for patch, _ in cell.sides:
+            if patch not in region.sheets and patch not in outer:
+                found.setdefault(patch, []).append(cell.name)
+    return {patch: frozenset(names) for patch, names in found.items() if len(set(names)) == 2}
 
 
 def off_surfaces(
@@ -80,12 +94,16 @@ def off_surfaces(
         known: the model's sheets; None where no group is of any.
     """
     off = np.zeros(len(points))
-    for tag, owners in names.faces.items():
+    for tag, choices in names.faces.items():
         nodes = np.unique(triangles[tags == tag])
-        for region, face in owners:
-            boundary = geometry.regions[region]
-            carrier = boundary.carriers[boundary.faces[face].carrier]
-            off[nodes] = np.maximum(off[nodes], np.abs(carrier.signed_distance(points[nodes])))
+        away = np.full(len(nodes), np.inf)
+        for own in dict.fromkeys(_carriers(geometry, each) for each in choices):
+            gaps = [
+                np.abs(geometry.regions[region].carriers[k].signed_distance(points[nodes]))
+                for region, k in own
+            ]
+            away = np.minimum(away, np.max(gaps, axis=0))
+        off[nodes] = np.maximum(off[nodes], away)
     for tag, name in names.sheets.items():
         numbers = known.named(name) if known is not None else ()
         nodes = np.unique(triangles[tags == tag])
@@ -93,6 +111,11 @@ def off_surfaces(
             gap = _gap(known, numbers, points[nodes])
             off[nodes] = np.maximum(off[nodes], gap)
     return off
+
+
+def _carriers(geometry: Geometry, sides: Sides) -> tuple[tuple[int, int], ...]:
+    """Region and carrier of a face, or of the two of an interface."""
+    return tuple((region, geometry.regions[region].faces[face].carrier) for region, face in sides)
 
 
 def _gap(known: KnownSheets, numbers: Sequence[int], points: Array) -> Array:

@@ -9,17 +9,21 @@ from typing import Any
 import numpy as np
 
 from decomp.csg.model import Ignored
+from decomp.near import listed
+from decomp.shown import Shown
 from decomp.tetra.edge_lengths import EdgeLengths, edge_lengths
 from decomp.tetra.mesh import Group, GroupKind, TetMesh
+from decomp.tetra.pieces import whole_name
 from decomp.tetra.quality import dihedral_angles, inverted, radius_ratios, volumes
-from decomp.vectors import Ints
+from decomp.vectors import Array, Ints
 
 SAME = 0.02
 """A mean length that was wanted is told if it is below the one asked for by more than this part."""
+PLURALS = {"vertex": "vertices"}
 
 
 @dataclass(frozen=True)
-class Volume:
+class Volume(Shown):
     """A region or a cell.
 
     Args:
@@ -30,6 +34,7 @@ class Volume:
         volume: of the tetrahedra.
         exact: the region's, or that of the cell inside the skeleton's complex; None if unknown.
         maxh: what the input asks for.
+        number: of a cell, as the field `cell` tells it; of a region, from 1.
         edges: of a region; None for cells.
     """
 
@@ -40,6 +45,7 @@ class Volume:
     volume: float
     exact: float | None
     maxh: float | None
+    number: int
     edges: EdgeLengths | None = None
 
     @property
@@ -49,7 +55,7 @@ class Volume:
 
 
 @dataclass(frozen=True)
-class Surface:
+class Surface(Shown):
     """A group of triangles.
 
     Args:
@@ -66,6 +72,24 @@ class Surface:
     bc: int | None
     maxh: float | None = None
     edges: EdgeLengths | None = None
+
+
+@dataclass(frozen=True)
+class Written(Shown):
+    """A group as files have it.
+
+    Args:
+        name, dimension, tag, members: the group's.
+        kind: the group's, of volumes of regions `volume`.
+        elements: how many.
+    """
+
+    name: str
+    dimension: int
+    kind: str
+    tag: int
+    elements: int
+    members: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -91,14 +115,16 @@ class Quality:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Shown):
     """A mesh in figures.
 
     Args:
         model: its name.
         order: of the elements.
         nodes, tets, triangles: how many.
-        regions, cells, surfaces: in the order of their groups.
+        groups: that are written.
+        regions, cells: of the model, whatever is written.
+        surfaces: that are written.
         edges: of all tetrahedra.
         quality: of the tetrahedra.
         unprojected: nodes that are not on their exact surfaces.
@@ -112,6 +138,7 @@ class Report:
     nodes: int
     tets: int
     triangles: int
+    groups: tuple[Written, ...]
     regions: tuple[Volume, ...]
     cells: tuple[Volume, ...]
     surfaces: tuple[Surface, ...]
@@ -138,23 +165,25 @@ def report(
         ignored: statements of the model's file that were not used.
     """
     contents = volumes(mesh.points, mesh.tets)
-    solids = [group for group in mesh.groups if group.dimension == 3]
-    cells = []
-    for group in solids:
-        own = mesh.tet_tags == group.tag
-        cells.append(_volume(group, int(own.sum()), float(contents[own].sum())))
-    surfaces = tuple(_surface(mesh, group) for group in mesh.groups if group.dimension == 2)
-    whole = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.REGION]
-    parts = [c for c, g in zip(cells, solids, strict=True) if g.kind is GroupKind.CELL]
+    parts, of_region = mesh.all_parts, mesh.all_parts.region_of_tets
+    regions = []
+    for each in parts.regions:
+        found = _volume(each, contents[of_region == each.tag])
+        if found.exact is None and exact:
+            found = replace(found, exact=exact.get(each.name))
+        own = mesh.tets[of_region == each.tag]
+        edges = edge_lengths(mesh.points, own, each.length, mesh.lengths)
+        regions.append(replace(found, edges=edges))
     return Report(
         mesh.name,
         mesh.order,
         len(mesh.points),
         len(mesh.tets),
         len(mesh.triangles),
-        tuple(_with_edges(mesh, each) for each in (*whole, *_joined(parts, exact or {}))),
-        tuple(parts),
-        surfaces,
+        tuple(_written(mesh, group) for group in mesh.groups),
+        tuple(regions),
+        tuple(_volume(each, contents[parts.of_tets == each.tag]) for each in parts.cells),
+        tuple(_surface(mesh, group) for group in mesh.groups if group.dimension == 2),
         edge_lengths(mesh.points, mesh.tets, wanted=mesh.lengths),
         _quality(mesh),
         len(mesh.unprojected),
@@ -162,6 +191,13 @@ def report(
         tuple(stages),
         tuple(ignored),
     )
+
+
+def _written(mesh: TetMesh, group: Group) -> Written:
+    tags = (mesh.node_tags, mesh.line_tags, mesh.triangle_tags, mesh.tet_tags)[group.dimension]
+    kind = "volume" if group.kind is GroupKind.REGION else group.kind.value
+    count = int((tags == group.tag).sum())
+    return Written(group.name, group.dimension, kind, group.tag, count, group.members)
 
 
 def _bridging(mesh: TetMesh) -> int:
@@ -172,9 +208,11 @@ def _bridging(mesh: TetMesh) -> int:
     return int(on[mesh.tets[:, :4]].all(axis=1).sum())
 
 
-def _volume(group: Group, tets: int, content: float) -> Volume:
-    region = group.regions[0]
-    return Volume(group.name, region, group.faces, tets, content, group.volume, group.maxh)
+def _volume(part: Group, contents: Array) -> Volume:
+    """A region or cell whose tetrahedra have some volumes (m,)."""
+    content = float(contents.sum())
+    where = (part.name, part.regions[0], part.faces)
+    return Volume(*where, len(contents), content, part.volume, part.maxh, part.tag)
 
 
 def _surface(mesh: TetMesh, group: Group) -> Surface:
@@ -185,24 +223,6 @@ def _surface(mesh: TetMesh, group: Group) -> Surface:
     return Surface(
         group.name, group.kind.value, group.regions, len(own), group.bc, group.maxh, edges
     )
-
-
-def _with_edges(mesh: TetMesh, region: Volume) -> Volume:
-    """A region with its edges."""
-    groups = [g for g in mesh.groups if g.dimension == 3 and region.name in g.regions]
-    own = mesh.tets[np.isin(mesh.tet_tags, [group.tag for group in groups])]
-    edges = edge_lengths(mesh.points, own, groups[0].length, mesh.lengths)
-    return replace(region, edges=edges)
-
-
-def _joined(cells: Sequence[Volume], exact: Mapping[str, float]) -> list[Volume]:
-    """The regions that consist of cells."""
-    result = []
-    for name in dict.fromkeys(cell.region for cell in cells):
-        own = [cell for cell in cells if cell.region == name]
-        content, tets = sum(cell.volume for cell in own), sum(cell.tets for cell in own)
-        result.append(Volume(name, name, (), tets, content, exact.get(name), own[0].maxh))
-    return result
 
 
 def _quality(mesh: TetMesh) -> Quality:
@@ -266,9 +286,9 @@ def as_text(found: Report) -> list[str]:
             f"  tetrahedra per cell: {spread['least']} to {spread['greatest']}, "
             f"median {spread['median']:g}{worst}"
         )
-    kinds = [surface.kind for surface in found.surfaces]
-    counted = [(kinds.count(kind.value), kind.value) for kind in GroupKind if kind.value in kinds]
-    lines.append(f"  surfaces: {', '.join(_plural(n, kind) for n, kind in counted)}")
+    kinds = [group.kind for group in found.groups]
+    counted = [_plural(kinds.count(kind), kind) for kind in dict.fromkeys(kinds)]
+    lines.append(f"  groups: {', '.join(counted)}")
     lines += [
         f"    {surface.name}: {edges_text(surface.edges)}"
         for surface in found.surfaces
@@ -286,9 +306,16 @@ def as_text(found: Report) -> list[str]:
         f"on the boundary: {found.bridging}",
     ]
     lines += [
+        f"  group {group.name}: {listed(group.members)}"
+        for group in found.groups
+        if group.members
+        and (group.dimension == 3 or set(map(whole_name, group.members)) != {group.name})
+    ]
+    lines += [
         f"  cell {cell.name}: {', '.join(cell.faces)}"
         for cell in found.cells
-        if "+".join(cell.faces) != cell.name.removeprefix(f"{cell.region}/")
+        if GroupKind.CELL.value in kinds
+        and "+".join(cell.faces) != cell.name.removeprefix(f"{cell.region}/")
     ]
     lines += [f"  ignored: {each}" for each in found.ignored]
     if found.stages:
@@ -320,4 +347,4 @@ def _error(volume: Volume) -> str:
 
 
 def _plural(count: int, noun: str) -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+    return f"1 {noun}" if count == 1 else f"{count} {PLURALS.get(noun, f'{noun}s')}"

@@ -60,7 +60,7 @@ def meshed(size: float, order: int) -> skfem.Mesh:
     """The ball without the octant; nodes of order 2 lie on the exact sphere."""
     ball = decomp.Sphere((0, 0, 0), 1, name="ball")
     octant = decomp.Block((0, 0, 0), (2, 2, 2), name="octant")
-    made = decomp.mesh(ball - octant, size=size, order=order, volumes="regions", sheets=False)
+    made = decomp.mesh(ball - octant, size=size, order=order)
     return made.to_skfem()
 
 

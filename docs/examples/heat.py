@@ -26,7 +26,7 @@ def solved(size: float, order: int) -> tuple[float, float, float]:
     """
     tube = decomp.Cylinder((0, 0, 0), (0, 0, LENGTH), OUTER, name="tube")
     hole = decomp.Cylinder((0, 0, -1), (0, 0, 1), INNER, name="hole")
-    mesh = decomp.mesh(tube - hole, size=size, order=order, volumes="regions").to_skfem()
+    mesh = decomp.mesh(tube - hole, size=size, order=order).to_skfem()
     basis = skfem.Basis(mesh, skfem.ElementTetP1() if order == 1 else skfem.ElementTetP2())
     stiffness = skfem.BilinearForm(lambda u, v, w: dot(grad(u), grad(v))).assemble(basis)
     hot = basis.get_dofs("solid/hole.side").all()

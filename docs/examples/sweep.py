@@ -40,7 +40,7 @@ def meshed(radius: float) -> skfem.MeshTet:
     plate: decomp.Solid = decomp.Block((0, 0, 0), (SIDE / 2, SIDE / 2, THICK / 2), name="plate")
     if radius:
         plate = plate - decomp.Cylinder((0, 0, -1), (0, 0, THICK), radius, name="hole")
-    made = decomp.mesh(plate, size=1.25, elements_per_circle=24, order=2, volumes="regions")
+    made = decomp.mesh(plate, size=1.25, elements_per_circle=24, order=2)
     return made.to_skfem()
 
 

@@ -66,7 +66,7 @@ class Warm:
 
 def meshed(size: float, order: int) -> skfem.Mesh:
     """With edges up to a size in cm."""
-    return decomp.mesh(MODEL, size=size, order=order, volumes="regions").to_skfem()
+    return decomp.mesh(MODEL, size=size, order=order).to_skfem()
 
 
 def losses() -> dict[str, float]:

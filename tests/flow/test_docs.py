@@ -18,7 +18,7 @@ PAGES = {
     "api.md": (1, ""),
     "formats.md": (7, "plate.geo ring.csg washer.json same.json"),
     "index.md": (1, "bearing.msh"),
-    "mesh.md": (7, "part.geo part.msh part.vtu plain.msh fields.vtu made"),
+    "mesh.md": (11, "part.geo part.msh part.vtu plain.msh fields.vtu made named.msh names.toml"),
     "theory.md": (1, ""),
     "tutorial.md": (8, "blind_hole.msh blind_hole.png blind_hole.html pipe.geo pipe.vtu"),
 }

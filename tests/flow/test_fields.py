@@ -69,13 +69,13 @@ def test_numbers_of_tetrahedra() -> None:
     found = [index[names[tag]] for tag in mesh.cell_data["nearest"].tolist()]
     exact = walls(mesh.points[mesh.tets].mean(axis=1))
     assert (exact[np.arange(len(found)), found] <= exact.min(axis=1) + 1e-12).all()
-    assert np.array_equal(mesh.cell_data["cell"], mesh.tet_tags)
+    assert np.array_equal(mesh.cell_data["cell"], mesh.grouped(volumes="cells").tet_tags)
     assert (mesh.cell_data["region"] == 0).all()
 
 
 @pytest.mark.parametrize(("text", "version"), [(False, "4.1"), (True, "4.1"), (True, "2.2")])
 def test_gmsh_reads_them(text: bool, version: str, tmp_path: Path) -> None:
-    mesh = tube()
+    mesh = tube().grouped(volumes="cells")
     path = tmp_path / "tube.msh"
     mesh.write(path, text=text, version=version)
     with opened(path) as gmsh:

@@ -190,7 +190,9 @@ def test_what_they_do_not_explain_fails(coarse: TetMesh, part: float) -> None:
 def test_a_hole_fails(coarse: TetMesh) -> None:
     inner = np.flatnonzero(np.linalg.norm(coarse.points[coarse.tets].mean(axis=1), axis=1) < 0.3)
     kept = np.setdiff1d(np.arange(len(coarse.tets)), inner)
-    holed = replace(coarse, tets=coarse.tets[kept], tet_tags=coarse.tet_tags[kept])
+    holed = replace(
+        coarse, tets=coarse.tets[kept], tet_tags=coarse.tet_tags[kept], cell_data={}, parts=None
+    )
     lines = check(BALL, holed).shortcomings
     assert any(line.startswith("region ball has volume ") for line in lines)
 

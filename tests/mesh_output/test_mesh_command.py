@@ -60,18 +60,18 @@ def test_mesh(model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert check(model, "two.msh").shortcomings == ()
     with opened(tmp_path / "two.msh") as gmsh:
         sizes = named_sizes(gmsh)
-    named = {2: figures["surfaces"], 3: figures["cells"]}
     assert sizes == {
-        (dimension, each["name"]): each["triangles" if dimension == 2 else "tets"]
-        for dimension, entries in named.items()
-        for each in entries
+        (each["dimension"], each["name"]): each["elements"] for each in figures["groups"]
     }
+    assert {(d, name) for d, name in sizes if d == 3} == {(3, "a"), (3, "b")}
+    assert not any(name.count("/") == 1 and "|" in name for _, name in sizes)
+    assert "  groups: 2 volumes, 10 faces, 1 interface\n" in text
 
 
 def test_all_formats(model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     files = [f"out/two{suffix}" for suffix in (".msh", ".vtu", ".xdmf", ".inp", ".mesh", ".png")]
     (tmp_path / "out").mkdir()
-    arguments = ["mesh", str(model), "--volumes", "regions", "--no-sheets", "--quiet", "--msh2"]
+    arguments = ["mesh", str(model), "--quiet", "--msh2"]
     assert main([*arguments, *(word for name in files for word in ("-o", name))]) == 0
     assert capsys.readouterr().out == ""
     assert sorted(f"out/{path.name}" for path in (tmp_path / "out").iterdir()) == sorted(files)

@@ -49,7 +49,7 @@ def test_as_text() -> None:
     mean = (300 + 240 * 2**0.5 + 64 * 3**0.5) / 4 / (300 + 240 + 64)
     assert text[2] == f"    edges: mean {mean:.4g}, longest {3**0.5 / 4:.4g}"
     assert "  tetrahedra per cell: 192 to 384, median 192" in text[5]
-    assert text[6] == "  surfaces: 4 faces, 1 interface, 1 sheet"
+    assert text[6] == "  groups: 3 cells, 4 faces, 1 interface, 1 sheet"
     assert text[7].startswith("  all edges: mean 0.31")
     assert "  cell left/cell-1: left.back, a, b, c" in text
     assert text[-1] == "  2.5 s: TetWild 2.5"

@@ -29,4 +29,5 @@ def geometry(name: str) -> decomp.Geometry:
 
 @cache
 def meshed(name: str, **options: object) -> TetMesh:
-    return decomp.mesh(geometry(name), **options)  # type: ignore[arg-type]
+    every = {"volumes": "cells", "sheets": True, **options}
+    return decomp.mesh(geometry(name), **every)  # type: ignore[arg-type]

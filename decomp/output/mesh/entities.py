@@ -1,8 +1,9 @@
 """The points, curves, surfaces and volumes on which Gmsh wants nodes and elements to lie.
 
-Surfaces and volumes are the mesh's groups, with the groups' tags. Curves are where the surfaces
+Surfaces are the finest parts that groups join: each piece of a face or interface, each sheet.
+Volumes are the regions, or the cells where groups are of cells. Curves are where the surfaces
 meet or end: edges of triangles that are not between two triangles of one surface. Points are where
-curves meet or end. Curves and points are numbered from 1 and are in no physical group.
+curves meet or end. Curves and points are numbered from 1.
 """
 
 from __future__ import annotations
@@ -13,11 +14,10 @@ import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
+from decomp.tetra.curve_edges import EDGES, curve_edges, is_point
 from decomp.tetra.incidence import incidence, row_keys
-from decomp.tetra.mesh import TetMesh
+from decomp.tetra.mesh import GroupKind, TetMesh
 from decomp.vectors import Ints
-
-EDGES: Ints = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +28,10 @@ class Entities:
         dimension: (n,) of the entity that holds each node: the lowest one.
         tag: (n,) its tag.
         points: (p,) the node of each point; its tag is its place, from 1.
+        tets: (m,) the volume of each tetrahedron.
+        triangles: (k,) the surface of each triangle.
+        lines: (e,) the curve of each of the mesh's edge elements.
+        nodes: (q,) the point of each of its node elements.
         bounds: for curves, surfaces and volumes (dimensions 1 to 3) the entities that bound them:
             by tag a list of tags, negative where an outward normal points into the volume.
     """
@@ -35,66 +39,71 @@ class Entities:
     dimension: Ints
     tag: Ints
     points: Ints
+    tets: Ints
+    triangles: Ints
+    lines: Ints
+    nodes: Ints
     bounds: tuple[dict[int, list[int]], dict[int, list[int]], dict[int, list[int]]]
 
 
 def entities(mesh: TetMesh) -> Entities:
     """Find the curves and points of a mesh, and put each node on the entity of least dimension."""
+    volume, surface = entity_tags(mesh)
     dimension = np.full(len(mesh.points), 3, dtype=np.int64)
     tag = np.zeros(len(mesh.points), dtype=np.int64)
-    _place(tag, mesh.tets, mesh.tet_tags)
+    _place(tag, mesh.tets, volume)
     dimension[mesh.triangles] = 2
-    _place(tag, mesh.triangles, mesh.triangle_tags)
+    _place(tag, mesh.triangles, surface)
 
-    ends, middle, meeting = _curve_edges(mesh)
+    found = curve_edges(mesh.triangles, surface)
+    ends = found.ends
     nodes, links = np.unique(ends, return_inverse=True)
     links = links.reshape(-1, 2)
-    corner = _corners(links, meeting, len(nodes))
+    corner = is_point(links, found.of, len(nodes))
     curve = _connected(links, corner)
-    for along in (*ends.T, *([middle] if mesh.order == 2 else [])):
+    for along in (*ends.T, *([found.middles] if mesh.order == 2 else [])):
         dimension[along], tag[along] = 1, curve + 1
     points = nodes[corner]
     dimension[points], tag[points] = 0, np.arange(1, len(points) + 1)
 
     at_end = corner[links]
-    number = np.cumsum(corner)
+    number = np.cumsum(corner, dtype=np.int64)
     curves = _listed(np.repeat(curve + 1, 2)[at_end.ravel()], number[links[at_end]])
     for loop in range(1, int(curve.max(initial=-1)) + 2):
         curves.setdefault(loop, [])
-    return Entities(dimension, tag, points, (curves, _surfaces(mesh, ends, curve), _volumes(mesh)))
+    of_node = np.zeros(len(mesh.points), dtype=np.int64)
+    of_node[points] = np.arange(1, len(points) + 1)
+    return Entities(
+        dimension,
+        tag,
+        points,
+        volume,
+        surface,
+        _curves_of(mesh.lines[:, :2], ends, curve),
+        of_node[mesh.nodes],
+        (curves, _surfaces(mesh, surface, ends, curve), _volumes(mesh, volume, surface)),
+    )
+
+
+def entity_tags(mesh: TetMesh) -> tuple[Ints, Ints]:
+    """The volume (m,) of each tetrahedron, and the surface (k,) of each triangle."""
+    parts = mesh.all_parts
+    of_cells = any(group.kind is GroupKind.CELL for group in mesh.groups)
+    return (parts.of_tets if of_cells else parts.region_of_tets), mesh.triangle_parts
+
+
+def _curves_of(lines: Ints, ends: Ints, curve: Ints) -> Ints:
+    """The curve (e,) on which each of some edges (e, 2) is."""
+    keys = row_keys(np.concatenate([ends, lines]))
+    known, own = keys[: len(ends)], keys[len(ends) :]
+    order = np.argsort(known)
+    return np.asarray(curve[order[np.searchsorted(known[order], own)]] + 1)
 
 
 def _place(tag: Ints, elements: Ints, tags: Ints) -> None:
     """Give the nodes of elements their elements' tag, the least one where there are several."""
     order = np.argsort(-tags, kind="stable")
     tag[elements[order].reshape(-1)] = np.repeat(tags[order], elements.shape[1])
-
-
-def _curve_edges(mesh: TetMesh) -> tuple[Ints, Ints, Ints]:
-    """Edges (e, 2) on curves, their middle nodes (e,), and numbers (e,) of the sets of surfaces."""
-    edges = mesh.triangles[:, EDGES].reshape(-1, 2)
-    tags = np.repeat(mesh.triangle_tags, 3)
-    middles = mesh.triangles[:, 3:].reshape(-1) if mesh.order == 2 else np.zeros_like(tags)
-    _, edge, count = np.unique(row_keys(edges), return_inverse=True, return_counts=True)
-    order = np.lexsort([tags, edge])
-    start = np.cumsum(count) - count
-    place = np.arange(len(order)) - np.repeat(start, count)
-    around = np.zeros((len(count), int(count.max(initial=0))), dtype=np.int64)
-    around[edge[order], place] = tags[order]
-    inner = (count == 2) & (around[:, :1] == around[:, 1:2]).all(axis=1)
-    kept = order[start[~inner]]
-    sets = np.unique(around[~inner], axis=0, return_inverse=True)[1].reshape(-1)
-    return edges[kept], middles[kept], sets.astype(np.int64)
-
-
-def _corners(links: Ints, meeting: Ints, count: int) -> np.ndarray:
-    """Which nodes (count,) are points: not two curve edges there, or of different surfaces."""
-    flat, both = links.reshape(-1), np.repeat(meeting, 2)
-    degree = np.bincount(flat, minlength=count)
-    low, high = np.full(count, np.iinfo(np.int64).max), np.full(count, -1)
-    np.minimum.at(low, flat, both)
-    np.maximum.at(high, flat, both)
-    return np.asarray((degree != 2) | (low != high))
 
 
 def _connected(links: Ints, corner: np.ndarray) -> Ints:
@@ -109,7 +118,7 @@ def _connected(links: Ints, corner: np.ndarray) -> Ints:
     return np.unique(found, return_inverse=True)[1].astype(np.int64)
 
 
-def _surfaces(mesh: TetMesh, ends: Ints, curve: Ints) -> dict[int, list[int]]:
+def _surfaces(mesh: TetMesh, surface: Ints, ends: Ints, curve: Ints) -> dict[int, list[int]]:
     """The curves that bound each surface."""
     edges = mesh.triangles[:, EDGES].reshape(-1, 2)
     keys = row_keys(np.concatenate([ends, edges]))
@@ -117,18 +126,18 @@ def _surfaces(mesh: TetMesh, ends: Ints, curve: Ints) -> dict[int, list[int]]:
     order = np.argsort(known)
     slot = np.minimum(np.searchsorted(known[order], own), max(len(known) - 1, 0))
     hit = known[order][slot] == own if len(known) else np.zeros(len(own), dtype=np.bool_)
-    tags = np.repeat(mesh.triangle_tags, 3)[hit]
+    tags = np.repeat(surface, 3)[hit]
     found = _listed(tags, curve[order[slot[hit]]] + 1)
-    return {int(t): found.get(int(t), []) for t in np.unique(mesh.triangle_tags)}
+    return {int(t): found.get(int(t), []) for t in np.unique(surface)}
 
 
-def _volumes(mesh: TetMesh) -> dict[int, list[int]]:
+def _volumes(mesh: TetMesh, volume: Ints, surface: Ints) -> dict[int, list[int]]:
     """The surfaces that bound each volume."""
     pairs = incidence(mesh.triangles, mesh.tets)
     sign = np.where(pairs.outward > 0, 1, -1)
-    found = _listed(mesh.tet_tags[pairs.tet], mesh.triangle_tags[pairs.triangle] * sign)
+    found = _listed(volume[pairs.tet], surface[pairs.triangle] * sign)
     result = {}
-    for tag in np.unique(mesh.tet_tags):
+    for tag in np.unique(volume):
         both = found.get(int(tag), [])
         # a sheet with the volume on both sides bounds it once
         result[int(tag)] = [t for t in both if t > 0 or -t not in both]

@@ -2,9 +2,9 @@
 
 Each volume is an element set, and so is each region of several cells. Each surface is a node set
 (*NSET) and, for loads and contact, a list of element faces (*SURFACE), of the elements that its
-normals leave. Names are made valid: letters, digits and `_`, in capitals, at most 80, each once
-among the element sets and once among the others; comments at the file's head tell which is which.
-Sections, materials and steps are for the user.
+normals leave. Curves and points are node sets. Names are made valid: letters, digits and `_`, in
+capitals, at most 80, each once among the element sets and once among the others; comments at the
+file's head tell which is which. Sections, materials and steps are for the user.
 """
 
 from __future__ import annotations
@@ -34,12 +34,14 @@ def encoded(mesh: TetMesh) -> bytes:
     regions = _joined_regions(volumes)
     sets = valid_names([*(group.name for group in volumes), *regions])
     own, joined = sets[: len(volumes)], sets[len(volumes) :]
-    outer = valid_names(group.name for group in surfaces)
+    thin = [group for group in mesh.groups if group.dimension < 2]
+    outer = valid_names(group.name for group in (*surfaces, *thin))
     lines = ["*HEADING", f"{re.sub(r'[^ -~]', '_', mesh.name)}, by decomp"]
     named = [*(group.name for group in volumes), *regions]
     lines += [f"** ELSET {short}: {name}" for short, name in zip(sets, named, strict=True)]
-    named = [group.name for group in surfaces]
-    lines += [f"** NSET, SURFACE {short}: {name}" for short, name in zip(outer, named, strict=True)]
+    for short, group in zip(outer, (*surfaces, *thin), strict=True):
+        what = "NSET, SURFACE" if group.dimension == 2 else "NSET"
+        lines.append(f"** {what} {short}: {group.name}")
     lines += ["*NODE, NSET=NALL", *_nodes(mesh)]
     kind = "C3D4" if mesh.order == 1 else "C3D10"
     tets = in_vtk_order(mesh.tets) + 1
@@ -53,7 +55,8 @@ def encoded(mesh: TetMesh) -> bytes:
     for region, name in zip(regions, joined, strict=True):
         lines.append(f"*ELSET, ELSET={name}")
         lines += [n for g, n in zip(volumes, own, strict=True) if region in g.regions]
-    lines += _surfaces(mesh, surfaces, outer)
+    lines += _surfaces(mesh, surfaces, outer[: len(surfaces)])
+    lines += _node_sets(mesh, thin, outer[len(surfaces) :])
     return ("\n".join(lines) + "\n").encode()
 
 
@@ -106,6 +109,17 @@ def _surfaces(mesh: TetMesh, surfaces: list[Group], names: list[str]) -> Iterato
         yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
         for face in faces.tolist():
             yield f"{face // 4 + 1}, S{SIDES[face % 4]}"
+
+
+def _node_sets(mesh: TetMesh, groups: list[Group], names: list[str]) -> Iterator[str]:
+    for group, name in zip(groups, names, strict=True):
+        elements, tags = (
+            (mesh.lines, mesh.line_tags)
+            if group.dimension == 1
+            else (mesh.nodes[:, None], mesh.node_tags)
+        )
+        yield f"*NSET, NSET={name}"
+        yield from _rows(np.unique(elements[tags == group.tag]) + 1)
 
 
 def _rows(numbers: Ints) -> Iterator[str]:

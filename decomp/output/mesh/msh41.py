@@ -1,7 +1,7 @@
 """Gmsh's format 4.1 (.msh), binary or text, with every tag kept.
 
-Every group is an entity and its only physical group, both with the group's tag; every node is on
-the entity of least dimension that holds it. Nodes keep their order: number k is tagged k + 1.
+Every group is a physical group of one entity or several (`entities`); every node is on the entity
+of least dimension that holds it. Nodes keep their order: number k is tagged k + 1.
 Format: https://gmsh.info/doc/texinfo/gmsh.html#MSH-file-format
 """
 
@@ -18,8 +18,13 @@ from decomp.output.mesh.names import physical_names
 from decomp.tetra.mesh import TetMesh
 from decomp.vectors import Array, Ints
 
-TYPES = {3: 2, 6: 9, 4: 4, 10: 11}
-"""Gmsh's element types by number of nodes."""
+TYPES = {
+    0: {1: 15},
+    1: {2: 1, 3: 8},
+    2: {3: 2, 6: 9},
+    3: {4: 4, 10: 11},
+}
+"""Gmsh's element types by dimension and number of nodes."""
 INT, SIZE, DOUBLE = np.dtype("i4"), np.dtype("u8"), np.dtype("f8")
 
 
@@ -73,8 +78,8 @@ def encoded(mesh: TetMesh, *, text: bool = False) -> bytes:
         physical_names(mesh),
         _entities(mesh, placed, _Body(not text)),
         _nodes(mesh, placed, _Body(not text)),
-        _elements(mesh, _Body(not text)),
-        fields(mesh, text, by_tag=True),
+        _elements(mesh, placed, _Body(not text)),
+        fields(mesh, text, np.argsort(placed.tets, kind="stable")),
     ]
     return b"".join(parts)
 
@@ -82,12 +87,15 @@ def encoded(mesh: TetMesh, *, text: bool = False) -> bytes:
 def _entities(mesh: TetMesh, placed: Entities, body: _Body) -> bytes:
     curves, surfaces, volumes = placed.bounds
     body.row((SIZE, [len(placed.points), len(curves), len(surfaces), len(volumes)]))
+    groups = [_group_of(own, tags) for _, own, tags in _tagged(mesh, placed)]
     for number, node in enumerate(placed.points.tolist(), start=1):
-        body.row((INT, [number]), (DOUBLE, mesh.points[node].tolist()), (SIZE, [0]))
+        own = [groups[0][number]] if number in groups[0] else []
+        place = mesh.points[node].tolist()
+        body.row((INT, [number]), (DOUBLE, place), (SIZE, [len(own)]), (INT, own))
     for dimension, bounds in enumerate(placed.bounds, start=1):
         boxes = _boxes(mesh, placed, dimension)
         for tag in sorted(bounds):
-            physical: list[int] = [tag] if dimension > 1 else []
+            physical = [groups[dimension][tag]] if tag in groups[dimension] else []
             body.row(
                 (INT, [tag]),
                 (DOUBLE, boxes[tag].tolist()),
@@ -97,6 +105,21 @@ def _entities(mesh: TetMesh, placed: Entities, body: _Body) -> bytes:
                 (INT, bounds[tag]),
             )
     return body.section("Entities")
+
+
+def _tagged(mesh: TetMesh, placed: Entities) -> list[tuple[Ints, Ints, Ints]]:
+    """Elements, their entities and their groups, by dimension from 0."""
+    return [
+        (mesh.nodes[:, None], placed.nodes, mesh.node_tags),
+        (mesh.lines, placed.lines, mesh.line_tags),
+        (mesh.triangles, placed.triangles, mesh.triangle_tags),
+        (mesh.tets, placed.tets, mesh.tet_tags),
+    ]
+
+
+def _group_of(entities: Ints, groups: Ints) -> dict[int, int]:
+    """The group of each entity, by their tags."""
+    return dict(np.unique(np.stack([entities, groups], axis=1), axis=0).tolist())
 
 
 def _boxes(mesh: TetMesh, placed: Entities, dimension: int) -> dict[int, Array]:
@@ -109,7 +132,7 @@ def _boxes(mesh: TetMesh, placed: Entities, dimension: int) -> dict[int, Array]:
         nodes = {k: np.concatenate([rows.get(k, corners[k][:0]), corners[k]]) for k in corners}
     else:
         elements, tags = (
-            (mesh.triangles, mesh.triangle_tags) if dimension == 2 else (mesh.tets, mesh.tet_tags)
+            (mesh.triangles, placed.triangles) if dimension == 2 else (mesh.tets, placed.tets)
         )
         nodes = {k: elements[rows].reshape(-1) for k, rows in _grouped(tags).items()}
     return {
@@ -136,20 +159,18 @@ def _blocks(placed: Entities) -> Iterator[tuple[int, int, Ints]]:
                 yield dimension, tag, found[tag]
 
 
-def _elements(mesh: TetMesh, body: _Body) -> bytes:
+def _elements(mesh: TetMesh, placed: Entities, body: _Body) -> bytes:
     blocks = [
         (dimension, tag, elements, rows)
-        for dimension, elements, tags in (
-            (2, mesh.triangles, mesh.triangle_tags),
-            (3, mesh.tets, mesh.tet_tags),
-        )
-        for tag, rows in sorted(_grouped(tags).items())
+        for dimension, (elements, entities, _) in enumerate(_tagged(mesh, placed))
+        for tag, rows in sorted(_grouped(entities).items())
     ]
-    count = len(mesh.triangles) + len(mesh.tets)
+    count = sum(len(rows) for *_, rows in blocks)
     body.row((SIZE, [len(blocks), count, 1, count]))
     first = 1
     for dimension, tag, elements, rows in blocks:
-        body.row((INT, [dimension, tag, TYPES[elements.shape[1]]]), (SIZE, [len(rows)]))
+        kind = TYPES[dimension][elements.shape[1]]
+        body.row((INT, [dimension, tag, kind]), (SIZE, [len(rows)]))
         numbers = np.arange(first, first + len(rows))
         body.table(SIZE, np.column_stack([numbers, elements[rows] + 1]))
         first += len(rows)
@@ -160,7 +181,7 @@ def _grouped(tags: Ints) -> dict[int, Ints]:
     """The rows of each tag, ascending."""
     order = np.argsort(tags, kind="stable")
     found, starts = np.unique(tags[order], return_index=True)
-    return dict(zip(found.tolist(), np.split(order, starts[1:]), strict=True))
+    return dict(zip(found.tolist(), np.split(order, starts)[1:], strict=True))
 
 
 def _word(kind: np.dtype[np.generic], value: float) -> str:

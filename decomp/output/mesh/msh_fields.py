@@ -10,24 +10,22 @@ from decomp.vectors import Array, Ints
 ROW = np.dtype([("tag", "<i4"), ("value", "<f8")])
 
 
-def fields(mesh: TetMesh, text: bool, by_tag: bool) -> bytes:
-    """The sections of all fields of a mesh; tetrahedra are numbered after the triangles.
+def fields(mesh: TetMesh, text: bool, rows: Ints) -> bytes:
+    """The sections of all fields of a mesh; tetrahedra are numbered after all other elements.
 
-    Triangles have -1 where tetrahedra have values, as meshio reads no file in which elements lack
-    any.
+    These have -1 where tetrahedra have values, as meshio reads no file in which elements lack any.
 
     Args:
         mesh: with fields, or without.
         text: whether numbers are written as words.
-        by_tag: whether the file numbers tetrahedra in the order of their tags.
+        rows: (m,) the tetrahedra in the order of their numbers.
     """
     parts = [
         _section("NodeData", name, np.arange(1, len(values) + 1), values, text)
         for name, values in mesh.point_data.items()
     ]
-    numbers = np.arange(1, len(mesh.triangles) + len(mesh.tets) + 1)
-    none = np.full(len(mesh.triangles), -1.0)
-    rows = np.argsort(mesh.tet_tags, kind="stable") if by_tag else np.arange(len(mesh.tets))
+    none = np.full(len(mesh.nodes) + len(mesh.lines) + len(mesh.triangles), -1.0)
+    numbers = np.arange(1, len(none) + len(mesh.tets) + 1)
     parts += [
         _section("ElementData", name, numbers, np.concatenate([none, values[rows]]), text)
         for name, values in mesh.cell_data.items()

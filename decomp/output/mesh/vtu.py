@@ -1,10 +1,11 @@
-"""VTK's unstructured grids (.vtu) of tetrahedra and tagged triangles, for ParaView and PyVista.
+"""VTK's unstructured grids (.vtu) of tetrahedra and all elements of groups, for ParaView, PyVista.
 
-Cell data: `group` (tag, unique among triangles and among tetrahedra), `region` (number) and `bc`
-(the input's boundary condition number, -1 for none). Point data: `unprojected`. Field data: for
-each name an array of one number, `volume NAME` and `surface NAME` the tag, `region NAME` the
-number. (Arrays of strings would be plainer, but meshio refuses files with any.)
-Fields asked for have their own names; triangles have -1.
+Cell data: `group` (tag, unique among elements of one dimension), `region` (number), `bc` (the
+input's boundary condition number, -1 for none) and `cell` (its number, where there are cells).
+Point data: `unprojected`. Field data: for each name an array of one number, `volume NAME`,
+`surface NAME`, `curve NAME` and `point NAME` the tag, `region NAME` the number. (Arrays of strings
+would be plainer, but meshio refuses files with any.)
+Fields asked for have their own names; elements that are no tetrahedra have -1.
 Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
 """
 
@@ -20,21 +21,28 @@ from numpy.typing import NDArray
 
 from decomp.plain import plain
 from decomp.tetra.convert import VTK_TYPES, region_names, region_numbers
+from decomp.tetra.group import NOUNS
+from decomp.tetra.lower import lower_blocks
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.ordering import in_vtk_order
+from decomp.tetra.parts import looked_up
 from decomp.vectors import Ints
 
 TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "uint8": "UInt8"}
 
 
 def encoded(mesh: TetMesh) -> bytes:
-    """The contents of a file: triangles first, then tetrahedra."""
-    blocks = [mesh.triangles, in_vtk_order(mesh.tets)]
+    """The contents of a file: points, lines and triangles first, then tetrahedra."""
+    lower = lower_blocks(mesh)
+    blocks = [*(each.elements for each in lower), in_vtk_order(mesh.tets)]
     widths = np.repeat([block.shape[1] for block in blocks], [len(block) for block in blocks])
-    kinds = [VTK_TYPES[block.shape[1]] for block in blocks]
+    kinds = [*(each.vtk for each in lower), VTK_TYPES[mesh.tets.shape[1]]]
+    none = np.full(sum(len(each.elements) for each in lower), -1)
     unprojected = np.zeros(len(mesh.points), dtype=np.uint8)
     unprojected[mesh.unprojected] = 1
-    region = np.concatenate([region_numbers(mesh, 2), region_numbers(mesh, 3)])
+    thin = len(none) - len(mesh.triangles)
+    region = np.concatenate([none[:thin], region_numbers(mesh, 2), region_numbers(mesh, 3)])
+    condition = np.concatenate([none[:thin], _conditions(mesh), np.full(len(mesh.tets), -1)])
     order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
     lines = [
         '<?xml version="1.0"?>',
@@ -56,11 +64,11 @@ def encoded(mesh: TetMesh) -> bytes:
         *(_array(name, values) for name, values in mesh.point_data.items()),
         "</PointData>",
         '<CellData Scalars="group">',
-        _array("group", np.concatenate([mesh.triangle_tags, mesh.tet_tags])),
+        _array("group", np.concatenate([*(each.tags for each in lower), mesh.tet_tags])),
         _array("region", region),
-        _array("bc", np.concatenate([_conditions(mesh), np.full(len(mesh.tets), -1)])),
+        _array("bc", condition),
         *(
-            _array(name, np.concatenate([np.full(len(mesh.triangles), -1), values]))
+            _array(name, np.concatenate([none, values]))
             for name, values in mesh.cell_data.items()
             if name != "region"
         ),
@@ -74,14 +82,12 @@ def encoded(mesh: TetMesh) -> bytes:
 
 def _conditions(mesh: TetMesh) -> Ints:
     """The boundary condition number of each triangle, -1 for none."""
-    known = {g.tag: g.bc for g in mesh.groups if g.dimension == 2 and g.bc is not None}
-    tags, places = np.unique(mesh.triangle_tags, return_inverse=True)
-    return np.array([known.get(int(tag), -1) for tag in tags], dtype=np.int64)[places]
+    known = {s.tag: s.bc for s in mesh.all_parts.surfaces if s.bc is not None}
+    return looked_up(known, mesh.triangle_parts)
 
 
 def _field_data(mesh: TetMesh) -> list[str]:
-    what = {3: "volume", 2: "surface"}
-    numbers = {f"{what[group.dimension]} {group.name}": group.tag for group in mesh.groups}
+    numbers = {f"{NOUNS[group.dimension]} {group.name}": group.tag for group in mesh.groups}
     numbers |= {f"region {name}": k for k, name in enumerate(region_names(mesh))}
     arrays = (_array(name, np.array([number]), True) for name, number in numbers.items())
     return ["<FieldData>", *arrays, "</FieldData>"]

@@ -1,6 +1,7 @@
 """XDMF 3 (.xdmf) with its numbers in it as text, for ParaView and meshio.
 
-Cell data: `gmsh:physical`, the tags of the groups. meshio's own writer drops the groups' names and
+Cell data: `gmsh:physical`, the tags of the groups. Points are left out: meshio reads no file with
+elements of one node. meshio's own writer drops the groups' names and
 reads them all the same; they are written here where it looks for them.
 Format: https://www.xdmf.org/index.php/XDMF_Model_and_Format
 """
@@ -12,19 +13,25 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from decomp.plain import plain
+from decomp.tetra.convert import VTK_TYPES
+from decomp.tetra.lower import lower_blocks
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.ordering import in_vtk_order
 from decomp.vectors import Array, Ints
 
-TYPES = {3: 4, 6: 36, 4: 6, 10: 38}
-"""XDMF's numbers of element types by number of nodes."""
+TYPES = {3: 2, 21: 34, 5: 4, 22: 36, 10: 6, 24: 38}
+"""XDMF's numbers of element types by VTK's."""
+COUNTED = 2
+"""The type of XDMF's before whose nodes their number stands."""
 
 
 def encoded(mesh: TetMesh) -> bytes:
-    """The contents of a file: triangles first, then tetrahedra."""
-    blocks = [mesh.triangles, in_vtk_order(mesh.tets)]
-    topology = np.concatenate([_typed(block).reshape(-1) for block in blocks])
-    tags = np.concatenate([mesh.triangle_tags, mesh.tet_tags])
+    """The contents of a file: lines and triangles first, then tetrahedra."""
+    lower = [block for block in lower_blocks(mesh) if block.dimension]
+    blocks = [(each.vtk, each.elements) for each in lower]
+    blocks.append((VTK_TYPES[mesh.tets.shape[1]], in_vtk_order(mesh.tets)))
+    topology = np.concatenate([_typed(*block).reshape(-1) for block in blocks])
+    tags = np.concatenate([*(each.tags for each in lower), mesh.tet_tags])
     lines = [
         '<?xml version="1.0"?>',
         '<Xdmf Version="3.0">',
@@ -42,12 +49,15 @@ def encoded(mesh: TetMesh) -> bytes:
     return "\n".join(lines).encode()
 
 
-def _typed(elements: Ints) -> Ints:
-    return np.insert(elements, 0, TYPES[elements.shape[1]], axis=1)
+def _typed(vtk: int, elements: Ints) -> Ints:
+    kind = TYPES[vtk]
+    head = [kind, elements.shape[1]] if kind == COUNTED else [kind]
+    return np.insert(elements, [0] * len(head), head, axis=1)
 
 
 def _names(mesh: TetMesh) -> str:
-    ordered = sorted(mesh.groups, key=lambda group: -group.dimension)
+    kept = (group for group in mesh.groups if group.dimension)
+    ordered = sorted(kept, key=lambda group: -group.dimension)
     entries = (
         f'<map key={quoteattr(plain(group.name))} dim="{group.dimension}">{group.tag}</map>'
         for group in ordered
