@@ -312,3 +312,23 @@ def test_many_names_are_folded_under_their_regions(browser: Any, tmp_path: Path)
     opened.view.locator("#search").fill("slice-20")
     assert opened.view.locator('.item[title="right/slice-20"]').is_visible()
     opened.close()
+
+
+def test_two_fingers_come_nearer(browser: Any, pages: dict[str, Path]) -> None:
+    opened = Opened(browser, pages["bar"], width=400)
+    before = (opened.drawn() < 250).any(axis=2).mean()
+    touch = opened.view.context.new_cdp_session(opened.view)
+    for kind, gap in (("touchStart", 40), ("touchMove", 70), ("touchMove", 100), ("touchEnd", 0)):
+        fingers = [{"x": 200 + sign * gap, "y": 200, "id": sign + 1} for sign in (-1, 1)]
+        touches = fingers if gap else []
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+    assert (opened.drawn() < 250).any(axis=2).mean() > 2 * before
+    opened.close()
+
+
+def test_without_graphics_it_says_so(browser: Any, pages: dict[str, Path]) -> None:
+    view = browser.new_page(offline=True)
+    view.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    view.goto(pages["bar"].as_uri())
+    assert "picture with decomp view -o" in view.locator("#without").inner_text()
+    view.close()
