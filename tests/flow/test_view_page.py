@@ -14,7 +14,7 @@ import pytest
 from decomp.cli.main import main
 from decomp.drawing import of_mesh
 from decomp.drawing.colours import rgb
-from decomp.tetra.mesh import TetMesh
+from decomp.tetra.mesh import Group, GroupKind, TetMesh
 from decomp.view import page
 from decomp.view.reading import scene_of
 from tests import browser as browsers
@@ -286,6 +286,49 @@ def test_the_command(browser: Any, tmp_path: Path) -> None:
     assert main(["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "bar.html")]) == 0
     opened = Opened(browser, tmp_path / "bar.html")
     text = opened.view.locator("#names").inner_text()
-    for name in ("Volumes (3)", "Interfaces (2)", "front", "cell-1"):
+    for name in ("Cells (3)", "Interfaces (2)", "front", "cell-1"):
         assert name in text
     opened.close()
+
+
+def test_many_names_are_folded_under_their_regions(browser: Any, tmp_path: Path) -> None:
+    mesh = bar(4)
+    # twelve slices in each region
+    part = (mesh.points[mesh.tets].mean(axis=1)[:, 0] * 12).astype(np.int64)
+    names = [f"{'left' if k < 12 else 'right'}/slice-{k}" for k in range(24)]
+    solids = [
+        Group(GroupKind.CELL, k + 1, name, (name.partition("/")[0],))
+        for k, name in enumerate(names)
+    ]
+    groups = (*solids, *(group for group in mesh.groups if group.dimension == 2))
+    mesh = replace(mesh, tet_tags=part + 1, groups=groups)
+    path = tmp_path / "slices.html"
+    path.write_bytes(page.encoded(of_mesh.scene_of(mesh)))
+    opened = Opened(browser, path)
+    assert not opened.view.locator('.item[title="right/slice-20"]').is_visible()
+    opened.view.locator('input[name="right"]').first.uncheck()
+    assert opened.shown() == names[:12]
+    # what is searched for is unfolded
+    opened.view.locator("#search").fill("slice-20")
+    assert opened.view.locator('.item[title="right/slice-20"]').is_visible()
+    opened.close()
+
+
+def test_two_fingers_come_nearer(browser: Any, pages: dict[str, Path]) -> None:
+    opened = Opened(browser, pages["bar"], width=400)
+    before = (opened.drawn() < 250).any(axis=2).mean()
+    touch = opened.view.context.new_cdp_session(opened.view)
+    for kind, gap in (("touchStart", 40), ("touchMove", 70), ("touchMove", 100), ("touchEnd", 0)):
+        fingers = [{"x": 200 + sign * gap, "y": 200, "id": sign + 1} for sign in (-1, 1)]
+        touches = fingers if gap else []
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+    assert (opened.drawn() < 250).any(axis=2).mean() > 2 * before
+    opened.close()
+
+
+def test_without_graphics_it_says_so(browser: Any, pages: dict[str, Path]) -> None:
+    view = browser.new_page(offline=True)
+    view.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    view.goto(pages["bar"].as_uri())
+    assert "picture with decomp view -o" in view.locator("#without").inner_text()
+    view.close()

@@ -11,7 +11,17 @@ const VIEWS = { iso: START, "+x": { around: 0, up: 0 }, "-x": { around: Math.PI,
   "+z": { around: -Math.PI / 2, up: 1.57 }, "-z": { around: -Math.PI / 2, up: -1.57 } };
 const FIELD = 35, FREE = 1.1, NEAREST = 0.1, FARTHEST = 30, TRIAD = 84;
 
-export const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true, stencil: true });
+function started() {
+  try {
+    return new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true, stencil: true });
+  } catch (error) {
+    get("stage").append(made("p", { id: "without", textContent: "This browser does not draw in three dimensions (WebGL): " +
+      "allow it to use the graphics card, or take a picture with decomp view -o picture.png." }));
+    throw error;
+  }
+}
+
+export const renderer = started();
 renderer.localClippingEnabled = true;
 renderer.autoClear = false;
 renderer.setPixelRatio(window.devicePixelRatio);

@@ -5,7 +5,9 @@ import { chip as colourOf, regionChip } from "decomp/colours";
 import { chip } from "decomp/values";
 import { opacity, pieces } from "decomp/parts";
 
-const TITLES = { cell: data.body ? "Volumes" : "Cells", sheet: "Sheets", interface: "Interfaces", face: "Faces" };
+const areRegions = data.parts.every(part => part.group !== "cell" || part.name === part.region);
+const TITLES = { cell: areRegions ? "Volumes" : "Cells", sheet: "Sheets", interface: "Interfaces", face: "Faces" };
+const MANY = 20; // names are folded under their regions if there are more
 const groups = [], rows = [];
 let changed = () => {}, before = null;
 
@@ -90,7 +92,7 @@ export function list() {
       const inside = own.filter(piece => piece.region === region);
       // a region that is one volume needs no heading of its own
       const flat = regions.length === 1 || (inside.length === 1 && inside[0].name === region);
-      const place = flat ? all : box(region || "no region", inside, inside.length <= 12, { name: region });
+      const place = flat ? all : box(region || "no region", inside, own.length <= MANY, { name: region });
       if (!flat) all.append(place);
       const cut = (flat && regions.length > 1) || !inside.every(piece => piece.name.startsWith(`${region}/`)) ? 0 : region.length + 1;
       place.append(...inside.map(piece => item(piece, piece.name.slice(cut))));
