@@ -119,10 +119,6 @@ def test_near_names() -> None:
 HINTS = {
     "field": (lambda: decomp.mesh(part(), fields=["distanc"]), "did you mean 'distance'?"),
     "face": (lambda: part().regions[0].face_named("hole.sid"), "did you mean 'hole.side'?"),
-    "option": (
-        lambda: decomp.Region("a", decomp.Sphere((0, 0, 0), 1), {"maxH": 1}),
-        "did you mean 'maxh'?",
-    ),
     "colour": (lambda: mesh().plot("distanse"), "did you mean 'distance'?"),
     "group": (lambda: mesh().group("part/hole.sid"), "did you mean 'part/hole.side'?"),
 }

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from decomp.errors import InputError
-from decomp.near import near
 
 
 class Options(Mapping[str, Any]):
@@ -118,8 +117,7 @@ def checked(values: Any, known: Mapping[str, Known], where: str) -> Options:
     for key, value in values.items():
         if key not in known:
             unknown = f"{_short(key)}{_elsewhere(key)}"
-            hint = near(str(key), known)
-            raise InputError(f"{where} has an unknown option {unknown}; {_all(known)}{hint}")
+            raise InputError(f"{where} has an unknown option {unknown}; {_all(known)}")
         found[key] = known[key].plain(value)
         if found[key] is None:
             wrong = f"must be {known[key].what}, got {_short(value)}"

@@ -54,7 +54,9 @@ class Checked(Shown):
 
     Args:
         shortcomings: one line each; none if the mesh is right.
-        tets, nodes, groups: how many it has.
+        tets: how many it has.
+        nodes: how many it has.
+        groups: how many it has.
         volume_error: the largest of a region, relative.
         chord_error: the largest part of it that straight edges of their length explain.
         unexplained_error: the largest that is left without that.

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from decomp.tetra.check_edges import edge_shortcomings
 from decomp.tetra.check_names import listed_names
 from decomp.tetra.group import NOUNS
 from decomp.tetra.msh_reader import ReadMesh
@@ -22,11 +23,13 @@ def group_shortcomings(mesh: ReadMesh, fine: ReadMesh) -> Iterator[str]:
     if mesh.about is None:
         return
     known, count = mesh.about, len(mesh.triangles)
-    both = (
+    every = (
         (3, (known.cells, known.regions), mesh.tet_tags, fine.tet_tags),
         (2, (known.surfaces,), mesh.triangle_tags, fine.triangle_tags[:count]),
+        (1, (), mesh.line_tags, mesh.line_tags),
+        (0, (), mesh.node_tags, mesh.node_tags),
     )
-    for dimension, kinds, groups, parts in both:
+    for dimension, kinds, groups, parts in every:
         what = NOUNS[dimension]
         told = {g.tag: g for g in known.groups if g.dimension == dimension}
         names = {tag: name for (d, tag), name in mesh.names.items() if d == dimension}
@@ -42,6 +45,8 @@ def group_shortcomings(mesh: ReadMesh, fine: ReadMesh) -> Iterator[str]:
                 name = part.get(number, "")
                 if name not in own and region.get(name) not in own:
                     yield f"{what} {group.name} holds elements of {name or number}"
+        if dimension == 2:
+            yield from edge_shortcomings(mesh, mesh.triangles, parts, known)
 
 
 def _different(values: Ints) -> list[int]:

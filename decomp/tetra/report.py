@@ -121,9 +121,12 @@ class Report(Shown):
     Args:
         model: its name.
         order: of the elements.
-        nodes, tets, triangles: how many.
+        nodes: how many.
+        tets: how many.
+        triangles: how many.
         groups: that are written.
-        regions, cells: of the model, whatever is written.
+        regions: of the model, whatever is written.
+        cells: likewise.
         surfaces: that are written.
         edges: of all tetrahedra.
         quality: of the tetrahedra.

@@ -13,6 +13,7 @@ import meshio
 import numpy as np
 import pytest
 import pyvista
+import skfem
 
 import decomp
 from decomp.cli.main import main
@@ -219,6 +220,29 @@ def test_abaqus_and_medit(tmp_path: Path) -> None:
     assert (read.point_data["medit:ref"] > 0).sum() == len(made.nodes)
 
 
+def test_solvers_read_the_same_groups(tmp_path: Path) -> None:
+    made = mesh().grouped(groups={"tips": "fin*.zmax", "metal": ["sink", "lid"]}, edges=True)
+    made.write(tmp_path / "sink.msh", version="2.2")
+    sizes = {
+        name: int((made.triangle_tags == made.group(name, 2).tag).sum()) for name in names(made, 2)
+    }
+    given = made.to_skfem()
+    assert {name: len(own) for name, own in given.boundaries.items()} == sizes
+    assert set(given.subdomains) == {"metal", "chip", "sink", "lid"}
+    volume = skfem.Basis(given, skfem.ElementTetP0(), elements="metal")
+    assert float(volume.dx.sum()) == pytest.approx(100, rel=1e-12)
+    netgen = pytest.importorskip("netgen.read_gmsh").ReadGmsh(str(tmp_path / "sink.msh"))
+    walls = [netgen.GetBCName(element.index - 1) for element in netgen.Elements2D()]
+    assert {name: walls.count(name) for name in set(walls)} == sizes
+    mfem = pytest.importorskip("mfem.ser")
+    read = mfem.Mesh(str(tmp_path / "sink.msh"))
+    assert sorted(read.attribute_sets.GetAttributeSetNames()) == ["chip", "metal"]
+    assert set(read.bdr_attribute_sets.GetAttributeSetNames()) == set(sizes)
+    (tips,) = read.bdr_attribute_sets.GetAttributeSet("tips").ToList()
+    own = [read.GetBdrAttribute(k) for k in range(read.GetNBE())]
+    assert own.count(tips) == sizes["tips"]
+
+
 FAULTS = {
     "nothing": ({"tips": "fun*.zmax"}, "'fun*.zmax' of group 'tips' stands for none of the faces"),
     "near": ({"a": "sink/bse.zmax"}, "did you mean 'sink/base.zmax'"),
@@ -228,10 +252,11 @@ FAULTS = {
         "sink/fin#1.zmax would be in two groups, 'a' and 'b'",
     ),
     "unlike": ({"a": ["sink", "base.zmax"]}, "group 'a' would join regions and faces"),
-    "no face of an edge": (
-        {"a": "base.zmax&fon.xmin"},
-        "'*/fon.xmin' of group 'a' stands",
+    "no edge": (
+        {"a": "base.zmax&fin#1.zmax"},
+        "none of the edges; did you mean 'sink/base.zmax&fin",
     ),
+    "no interface": ({"a": "sink/*|chop/*.zmax"}, "'chop/*.zmax' of group 'a' stands"),
     "taken": (
         {"sink/base.zmin": "fin*.zmax"},
         "'sink/base.zmin' cannot be the name of a group of sink/fin#",
@@ -248,7 +273,7 @@ def test_what_cannot_be(fault: str) -> None:
     groups, said = FAULTS[fault]
     with pytest.raises(InputError) as caught:
         mesh().grouped(groups=groups)  # type: ignore[arg-type]
-    if fault not in ("no face of an edge", "near"):
+    if fault != "no interface":
         assert said in str(caught.value)
     told: list[str] = []
     with pytest.raises(InputError) as caught:
@@ -324,6 +349,32 @@ def test_a_wrong_group_is_found(tmp_path: Path) -> None:
         assert any(line.startswith(said) for line in found), (what, found)
     path.write_text(f"{head}$Elements\n{rest}".replace('"tips"', '"tops"', 1))
     assert "1 surfaces that the model has not: tops" in check(sink(), path).shortcomings
+
+
+def test_wrong_edges_are_found(tmp_path: Path) -> None:
+    """A line on another edge, one inside a face, and a point that is no vertex."""
+    path = tmp_path / "sink.msh"
+    mesh().grouped(edges=True).write(path)
+    read = read_msh(path)
+    assert check(sink(), read).shortcomings == ()
+    foot, tip = (
+        next(tag for (d, tag), name in read.names.items() if (d, name) == (1, wanted))
+        for wanted in ("sink/base.zmax&fin#1.xmin", "sink/fin#1.xmin&fin#1.zmax")
+    )
+    swapped = np.where(read.line_tags == foot, tip, read.line_tags)
+    count = int((read.line_tags == foot).sum())
+    expected = [
+        f"{count} elements of curve sink/fin#1.xmin&fin#1.zmax are not where the faces meet that "
+        "it is named for"
+    ]
+    assert list(check(sink(), replace(read, line_tags=swapped)).shortcomings) == expected
+    lines, nodes = read.lines.copy(), read.nodes.copy()
+    inside = np.setdiff1d(read.tets, read.triangles)[0]
+    around = read.tets[(read.tets == inside).any(axis=1)][0]
+    lines[0] = [inside, around[around != inside][0]]
+    nodes[0] = np.setdiff1d(np.unique(read.lines), read.nodes)[0]
+    found = check(sink(), replace(read, lines=lines, nodes=nodes)).shortcomings
+    assert [line.split(" of ")[0] for line in found] == ["1 elements"] * 2
 
 
 def test_a_wrong_cell_is_found(tmp_path: Path) -> None:
