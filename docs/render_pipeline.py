@@ -14,12 +14,15 @@ from PIL import Image, ImageDraw, ImageFont
 
 import decomp
 from decomp.cells.surface import side_triangles
+from decomp.drawing.camera import ASLANT, fitted
+from decomp.drawing.colours import CATEGORIES, rgb
+from decomp.drawing.picture import FINER, HEIGHT, WIDTH, creases
+from decomp.drawing.picture import MARGIN as FREE
+from decomp.drawing.raster import Triangles, painted
 from decomp.medial.result import Skeleton
-from decomp.output.mesh.picture import HEIGHT, WIDTH, painted
 from decomp.tetra.incidence import faces_of, row_keys
 from decomp.tetra.mesh import GroupKind, TetMesh
-from decomp.vectors import Array, Ints
-from decomp.view.colours import CATEGORIES, rgb
+from decomp.vectors import Array, Bools, Ints
 
 MODEL = Path(__file__).parents[1] / "meshes" / "blind_hole.geo"
 PICTURE = Path(__file__).parent / "pictures" / "pipeline.png"
@@ -91,13 +94,23 @@ def by_tag(mesh: TetMesh, triangles: Ints, tags: Ints, kind: GroupKind) -> list[
     return coloured([(g.name, mesh.points[triangles[tags == g.tag]]) for g in groups])
 
 
-def panel(parts: list[Part]) -> Image.Image:
-    """A picture of triangles, lit from above."""
+def panel(parts: list[Part], elements: bool) -> Image.Image:
+    """A picture of triangles, lit from above, with all their edges or where they bend alone."""
     corners = np.concatenate([corners for _, corners, _ in parts])
     shades = np.concatenate([np.tile(colour, (len(corners), 1)) for _, corners, colour in parts])
-    image = painted(corners, shades)
+    size = FINER * np.array([WIDTH, HEIGHT])
+    points = corners.reshape(-1, 3)
+    projection = fitted(points, np.array(ASLANT), FREE * size, (1 - FREE) * size)
+    lines = np.concatenate([bends(each) for _, each, _ in parts]) | elements
+    image = painted(Triangles(corners, lines, shades), projection, *size.tolist())
     whole = Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8))
     return whole.resize(PANEL, Image.Resampling.LANCZOS)
+
+
+def bends(corners: Array) -> Bools:
+    """Which sides (k, 3) of triangles are borders or bend."""
+    points, number = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    return creases(points, number.reshape(-1, 3))
 
 
 def sheet_of(panels: list[tuple[str, list[Part]]]) -> Image.Image:
@@ -109,7 +122,7 @@ def sheet_of(panels: list[tuple[str, list[Part]]]) -> Image.Image:
     for number, (what, parts) in enumerate(panels):
         x, y = number % 3 * width + MARGIN, number // 3 * height
         pen.text((x, y + 10), f"{number + 1}  {what}", fill="black", font=title)
-        whole.paste(panel(parts), (x, y + TITLE))
+        whole.paste(panel(parts, number >= 3), (x, y + TITLE))
     x, y = 2 * width + 4 * MARGIN, height + TITLE + 2 * MARGIN
     for row, (name, _, colour) in enumerate(panels[-1][1]):
         top = y + 40 * row

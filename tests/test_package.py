@@ -72,8 +72,9 @@ def test_a_wheel_holds_the_package_alone(built: Path) -> None:
         "decomp",
         path.name.split("-py3")[0] + ".dist-info",
     }
-    for wanted in ("decomp/py.typed", "decomp/formats/netgen.lark", "decomp/view/page.html"):
-        assert wanted in names
+    wanted = ("py.typed", "formats/netgen.lark", "view/page.css", "view/script/main.js")
+    for each in (*wanted, "view/report.js"):
+        assert f"decomp/{each}" in names
     licences = [name for name in names if "/licenses/" in name]
     assert [name.split("/licenses/")[1] for name in sorted(licences)] == [
         "LICENSE",

@@ -199,7 +199,8 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         "--html",
         type=Path,
         metavar="FILE.html",
-        help="write a page with tables, histograms of quality, and times",
+        help="write a page with a picture, tables, histograms of quality, and the view to turn "
+        "and cut",
     )
     group.add_argument(
         "--timeout",

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli import look
 from decomp.cli.arguments import STDOUT, add_output
 from decomp.cli.said import say
 from decomp.errors import InputError
 
 if TYPE_CHECKING:
-    from decomp.view.scene import Scene
+    from decomp.drawing.scene import Scene
 
 SUFFIXES = (".html", ".png")
 
@@ -24,23 +25,27 @@ def register(commands: Any) -> None:
         help="look at a model's skeleton and cells, a mesh, or a skeleton's file",
         description="Show a model (its skeleton, cells and faces), a mesh (.msh) or a skeleton "
         "(.vtu). Without -o a window opens, which needs pyvista; .html is a page that works "
-        "without a network: turn, slice, explode, hide by name, hover for names.",
+        "without a network: turn, cut, explode, find by name, colour by any field; .png is a "
+        "picture with names and a bar of lengths.",
     )
     add_options(parser, "Netgen .geo, OpenSCAD .csg, decomp .json, .msh, or a skeleton's .vtu")
     add_output(parser, SUFFIXES)
+    look.add_options(parser)
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute if need be, write or show."""
     from decomp.cli.computing import computed, method_text
+    from decomp.drawing import picture
     from decomp.files.suffixes import known_suffix
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
-    from decomp.view import image, page
-    from decomp.view.scene import MODELS, scene_of
+    from decomp.view import page
+    from decomp.view.reading import MODELS, scene_of
 
     suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
+    taken = look.checked(options, suffixes)
     check_outputs(options.output, [options.model])
     is_model = options.model.suffix.lower() in MODELS
     if not is_model and options.outside:
@@ -48,8 +53,8 @@ def run(options: argparse.Namespace) -> None:
     skeleton = computed(options) if is_model else None
     scene = scene_of(options.model, skeleton)
     for path, suffix in zip(options.output, suffixes, strict=True):
-        encode = page.encoded if suffix == ".html" else image.encoded
-        write_whole(path, encode(scene))
+        is_page = suffix == ".html"
+        write_whole(path, page.encoded(scene) if is_page else picture.encoded(scene, taken))
     if not options.output:
         show(scene)
     elif not options.quiet:

@@ -228,7 +228,9 @@ def standing_for(
         InputError: it stands for nothing.
     """
     asked = (3,) if names_regions(pattern) else (1, 0) if names_edges(pattern) else (2,)
-    for dimension in asked:
+    # a name stands for itself, whatever characters it holds
+    exact = [d for d, units in there.items() if any(u.name == pattern for u in units)]
+    for dimension in (*exact, *asked):
         units = there[dimension]
         own = set(matching(pattern, ((u.name, u.kind) for u in units)))
         if not split and dimension == 2:

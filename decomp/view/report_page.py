@@ -1,118 +1,161 @@
-"""A report as a page (.html) that needs nothing else: tables, histograms of quality, times."""
+"""A report as a page (.html) that needs nothing else: a picture, figures, tables, the view.
+
+What is asked for first is on the first two screens: figures, the picture, sizes, quality. The
+view of `decomp view` is in it, and opens in the picture's place.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import base64
+import json
 from dataclasses import astuple
 from html import escape
+from importlib.resources import files
 
-import numpy as np
-
+from decomp.drawing import of_mesh, picture
+from decomp.output.mesh.picture import LOOK
+from decomp.tetra.edge_lengths import EdgeLengths
 from decomp.tetra.mesh import TetMesh
 from decomp.tetra.quality import dihedral_angles, radius_ratios
 from decomp.tetra.report import Report
-from decomp.vectors import Array
-from decomp.view.colours import CATEGORIES
+from decomp.view import page
+from decomp.view.histogram import histogram
+from decomp.view.reading import brought_near
+from decomp.view.table import Entry, Figure, Link, table
 
-BINS, WIDE, HIGH, FOOT = 36, 560, 180, 22
-STYLE = (
-    "body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:60em;margin:2em auto;"
-    "padding:0 1em}table{border-collapse:collapse;margin:.6em 0}"
-    "th,td{padding:.2em .8em;border-bottom:1px solid #ccc;text-align:right}"
-    "th:first-child,td:first-child{text-align:left;overflow-wrap:anywhere}"
-    "figure{margin:1em 0}text{font-size:12px;fill:#222}"
-)
+FEW = 10
+"""Rows of sizes that are seen at once; all are among the details."""
+PERCENT = "{:+.3f} %"
+LENGTHS = ("edges", "mean", "longest", "asked", "wanted in the mean")
 
 
 def encoded(mesh: TetMesh, found: Report) -> bytes:
     """The contents of a file."""
+    here = files("decomp.view")
+    style, script = (
+        (here / name).read_text(encoding="utf-8") for name in ("report.css", "report.js")
+    )
+    scene = brought_near(of_mesh.scene_of(mesh))
+    image = base64.b64encode(picture.encoded(scene, LOOK)).decode()
+    # no name can end the script that holds the page
+    view = json.dumps(page.encoded(scene).decode()).replace("<", "\\u003c")
+    title = escape(found.model)
+    parts = [
+        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f'<link rel="icon" href="data:,"><title>{title} - decomp mesh</title>'
+        f"<style>{style}</style></head><body><h1>{title}</h1>",
+        _figures(found),
+        '<div class="two"><div id="view" hidden>'
+        '<iframe id="frame" title="the mesh, to be turned and cut"></iframe></div>',
+        '<button id="picture" type="button">'
+        f'<img src="data:image/png;base64,{image}" alt="the rear half of the mesh" '
+        f'width="{picture.WIDTH}" height="{picture.HEIGHT}">'
+        "<span>turn it, cut it, search it</span></button>",
+        f"<div>{_sizes(found)}{_quality(mesh)}</div></div>",
+        *_details(found),
+        f'<script type="application/json" id="page">{view}</script>',
+        f"<script>{script}</script></body></html>",
+    ]
+    return ("\n".join(parts) + "\n").encode()
+
+
+def _figures(found: Report) -> str:
+    """The figures that tell whether all is well."""
+    quality = found.quality
+    seconds = sum(spent for _, spent in found.stages)
+    listed = [
+        (f"tetrahedra of order {found.order}", str(found.tets), False),
+        ("nodes", str(found.nodes), False),
+        ("tagged triangles", str(found.triangles), False),
+        (
+            "dihedral angles, degrees",
+            f"{quality.least_dihedral:.1f} to {quality.greatest_dihedral:.1f}",
+            False,
+        ),
+        ("least radius ratio", f"{quality.least_radius_ratio:.3f}", False),
+        ("inverted", str(quality.inverted), quality.inverted > 0),
+        ("nodes left off their exact surfaces", str(found.unprojected), found.unprojected > 0),
+    ]
+    if found.stages:
+        listed.append(("seconds", f"{seconds:.1f}", False))
+    items = "".join(
+        f"<li class={'bad' if bad else 'good'}><b>{value}</b>{what}</li>"
+        for what, value, bad in listed
+    )
+    return f'<ul class="figures">{items}</ul>'
+
+
+def _sizes(found: Report) -> str:
+    """The lengths of edges that were reached in all and in each region."""
+    rows = _lengths(found)[:FEW]
+    return "<h2>Sizes reached</h2>" + table(("in", *LENGTHS), rows)
+
+
+def _lengths(found: Report) -> list[list[Entry]]:
+    """Of all, of the regions, of the surfaces that ask for a length."""
+    named: list[tuple[Entry, EdgeLengths | None]] = [("all", found.edges)]
+    named += [(Link(each.name), each.edges) for each in found.regions]
+    named += [(Link(each.name, each.kind), each.edges) for each in found.surfaces]
+    return [
+        [name, edges.number, *(Figure(value) for value in astuple(edges)[1:])]
+        for name, edges in named
+        if edges is not None
+    ]
+
+
+def _quality(mesh: TetMesh) -> str:
     tets = mesh.tets[:, :4]
     least = dihedral_angles(mesh.points, tets).min(axis=1)
     ratio = radius_ratios(mesh.points, tets)
-    quality = found.quality
-    regions = [
-        (each.name, each.tets, f"{each.volume:.9g}", _percent(each.error)) for each in found.regions
-    ]
-    cells = [(e.name, e.tets, f"{e.volume:.6g}", _percent(e.error)) for e in found.cells]
-    surfaces = [(each.name, each.triangles) for each in found.surfaces]
-    parted = [("all", found.edges), *((each.name, each.edges) for each in found.regions)]
-    parted += [(each.name, each.edges) for each in found.surfaces]
-    lengths = [
-        (name, edges.number, *(_length(value) for value in astuple(edges)[1:]))
-        for name, edges in parted
-        if edges is not None
-    ]
-    stages = [(what, f"{seconds:.2f}") for what, seconds in found.stages]
-    parts = [
-        f"<h1>{escape(found.model)}</h1>",
-        f"<p>{found.tets} tetrahedra of order {found.order}, {found.nodes} nodes, "
-        f"{found.triangles} tagged triangles. Inverted: {quality.inverted}. Nodes left off their "
-        f"exact surfaces: {found.unprojected}.</p>",
-        "<h2>Quality</h2>",
-        f"<p>Dihedral angles from {quality.least_dihedral:.1f} to "
-        f"{quality.greatest_dihedral:.1f} degrees.</p>",
-        histogram(least, 0, 75, "least dihedral angle of each tetrahedron, degrees"),
-        histogram(ratio, 0, 1, "radius ratio 3 r / R, 1 for a regular tetrahedron"),
-        "<h2>Regions</h2>",
-        _table(("region", "tetrahedra", "volume", "off the exact one"), regions),
-        "<h2>Lengths of edges</h2>",
-        _table(
-            ("in or on", "edges", "mean", "longest", "asked", "wanted in the mean"),
-            lengths,
-        ),
-        "<h2>Cells</h2>",
-        _table(("cell", "tetrahedra", "volume", "off the skeleton's"), cells),
-        "<h2>Surfaces</h2>",
-        _table(("surface", "triangles"), surfaces),
-        *_ignored(found),
-        "<h2>Times</h2>",
-        _table(("stage", "seconds"), stages),
-    ]
-    head = (
-        '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
-        f'<link rel="icon" href="data:,"><title>{escape(found.model)} - decomp mesh</title>'
-        f"<style>{STYLE}</style></head><body>"
-    )
-    return (head + "\n".join(parts) + "</body></html>\n").encode()
-
-
-def histogram(values: Array, low: float, high: float, what: str) -> str:
-    """Bars of how many values (n,) lie where from `low` to `high`, as an inline picture."""
-    counts, _ = np.histogram(np.clip(values, low, high), BINS, (low, high))
-    most, step = max(int(counts.max(initial=0)), 1), WIDE / BINS
-    bars = "".join(
-        f'<rect x="{k * step:.1f}" y="{HIGH * (1 - count / most):.1f}" width="{step - 1:.1f}" '
-        f'height="{HIGH * count / most:.1f}" fill="{CATEGORIES[0]}"><title>{count}</title></rect>'
-        for k, count in enumerate(counts.tolist())
-    )
-    marks = "".join(
-        f'<text x="{WIDE * share:.0f}" y="{HIGH + 15}" text-anchor="{anchor}">'
-        f"{low + share * (high - low):g}</text>"
-        for share, anchor in ((0, "start"), (0.5, "middle"), (1, "end"))
-    )
     return (
-        f"<figure><figcaption>{what}; the highest bar is {most}</figcaption>"
-        f'<svg viewBox="0 0 {WIDE} {HIGH + FOOT}" width="{WIDE}" role="img">{bars}'
-        f'<line x1="0" y1="{HIGH}" x2="{WIDE}" y2="{HIGH}" stroke="#222"/>{marks}</svg></figure>'
+        "<h2>Quality</h2>"
+        + histogram(least, 0, 75, "least dihedral angle of each tetrahedron, degrees")
+        + histogram(ratio, 0, 1, "radius ratio 3 r / R, 1 for a regular tetrahedron")
     )
 
 
-def _percent(error: float | None) -> str:
-    return "" if error is None else f"{100 * error:+.3f} %"
+def _details(found: Report) -> list[str]:
+    """Tables that are opened one by one; regions are open."""
+    regions: list[list[Entry]] = [
+        [Link(r.name), r.tets, Figure(r.volume, "{:.9g}"), Figure(_percent(r.error), PERCENT)]
+        for r in found.regions
+    ]
+    cells: list[list[Entry]] = [
+        [
+            Link(c.name, "cell"),
+            c.tets,
+            Figure(c.volume, "{:.6g}"),
+            Figure(_percent(c.error), PERCENT),
+        ]
+        for c in found.cells
+    ]
+    surfaces: list[list[Entry]] = [
+        [Link(s.name, s.kind), s.kind, s.triangles] for s in found.surfaces
+    ]
+    ignored: list[list[Entry]] = [[str(e.line or ""), e.statement] for e in found.ignored]
+    stages: list[list[Entry]] = [[what, Figure(spent, "{:.2f}")] for what, spent in found.stages]
+    lengths = _lengths(found)
+    heads = ("tetrahedra", "volume")
+    return [
+        _detail("Regions", ("region", *heads, "off the exact one"), regions, is_open=True),
+        _detail("Cells", ("cell", *heads, "off the skeleton's"), cells),
+        _detail("Surfaces", ("surface", "kind", "triangles"), surfaces),
+        _detail("Lengths of edges", ("in or on", *LENGTHS), lengths if lengths[FEW:] else []),
+        _detail("Ignored statements", ("line", "statement"), ignored, is_open=True),
+        _detail("Times", ("stage", "seconds"), stages),
+    ]
 
 
-def _ignored(found: Report) -> list[str]:
-    """What was left out of the model's file, if anything was."""
-    rows = [(each.line, each.statement) for each in found.ignored]
-    return ["<h2>Ignored statements</h2>", _table(("line", "statement"), rows)] if rows else []
+def _detail(
+    title: str, heads: tuple[str, ...], rows: list[list[Entry]], is_open: bool = False
+) -> str:
+    """A table under its title, with the number of its rows; nothing for none."""
+    if not rows:
+        return ""
+    state = " open" if is_open else ""
+    return f"<details{state}><summary>{title} ({len(rows)})</summary>{table(heads, rows)}</details>"
 
 
-def _length(value: float | None) -> str:
-    return "" if value is None else f"{value:.4g}"
-
-
-def _table(head: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    def line(tag: str, values: Sequence[object]) -> str:
-        return "<tr>" + "".join(f"<{tag}>{escape(str(v))}</{tag}>" for v in values) + "</tr>"
-
-    return f"<table>{line('th', head)}{''.join(line('td', row) for row in rows)}</table>"
+def _percent(error: float | None) -> float | None:
+    return None if error is None else round(100 * error, 3) + 0.0  # no -0

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from decomp.drawing.colouring import shown
+from decomp.drawing.scene import Part, Scene
 from decomp.vectors import Array
-from decomp.view.scene import Part, Scene, coloured
 
 REACH = 0.8
 """The farthest that parts are moved out, in parts of their distance from the middle."""
@@ -44,8 +45,8 @@ class Window:
     def __init__(self, scene: Scene, pyvista: Any, **options: Any) -> None:
         self.plotter = pyvista.Plotter(title=f"{scene.title} - decomp", **options)
         self._pyvista = pyvista
-        corners = np.concatenate([part.corners.reshape(-1, 3) for part in scene.parts])
-        self._low, self._high = corners.min(axis=0), corners.max(axis=0)
+        self._points = scene.points
+        self._low, self._high = scene.points.min(axis=0), scene.points.max(axis=0)
         self._plane = _plane()
         self._axis, self._share = 1, 1.0
         self.shown = self._parts(scene)
@@ -87,8 +88,8 @@ class Window:
         return self._names.get(self._picker.GetActor(), "")
 
     def _parts(self, scene: Scene) -> tuple[Shown, ...]:
-        is_mesh = scene.values == "quality"
-        found = [self._part(part, colour, is_mesh) for part, colour in coloured(scene)]
+        is_mesh = scene.body is not None
+        found = [self._part(each.part, each.colour, is_mesh) for each in shown(scene)]
         if scene.opaque == "sheet":
             for part in scene.parts:
                 if part.group == "face":
@@ -109,13 +110,14 @@ class Window:
             actors.append(drawn)
         for actor in actors:
             actor.mapper.AddClippingPlane(self._plane)
-        box = part.corners.reshape(-1, 3)
+        box = self._points[part.triangles].reshape(-1, 3)
         centre = (box.min(axis=0) + box.max(axis=0)) / 2
         return Shown(part.name, tuple(actors), centre - (self._low + self._high) / 2)
 
     def _surface(self, part: Part) -> Any:
-        triangles = np.arange(3 * len(part.corners)).reshape(-1, 3)
-        return self._pyvista.PolyData.from_regular_faces(part.corners.reshape(-1, 3), triangles)
+        corners = self._points[part.triangles].reshape(-1, 3)
+        triangles = np.arange(len(corners)).reshape(-1, 3)
+        return self._pyvista.PolyData.from_regular_faces(corners, triangles)
 
     def _add_controls(self) -> None:
         from vtkmodules.vtkRenderingCore import vtkCellPicker

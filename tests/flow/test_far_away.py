@@ -17,7 +17,8 @@ import decomp
 from decomp.cli.main import main
 from decomp.errors import InputError
 from decomp.output import stl
-from decomp.view.scene import scene_of
+from decomp.tetra.msh_reader import read_msh
+from decomp.view.reading import scene_of
 
 MOVE = np.array([-1e6, 2e6, 0.1])
 TEXT = """algebraic3d
@@ -95,8 +96,8 @@ def test_meshes(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["view", str(mesh), "-o", str(page)]) == 0
     # pages hold single precision, in which these coordinates are 0.1 apart
     scene = scene_of(mesh)
-    corners = np.concatenate([part.corners.reshape(-1, 3) for part in scene.parts])
-    assert corners.min(axis=0) == pytest.approx([-2, -1.5, -1], abs=1e-8)
+    assert scene.points + scene.origin == pytest.approx(read_msh(mesh).points, abs=1e-8)
+    assert scene.points.min(axis=0) == pytest.approx([-2, -1.5, -1], abs=1e-8)
     beside = model.with_name("beside.geo")
     beside.write_text(TEXT.replace("1000000", "1000001"))
     assert main(["check", str(beside), str(mesh)]) == 1

@@ -39,7 +39,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     def computed(*_: Any, **__: Any) -> Any:
         pytest.fail("something is read or computed")
 
-    for name in ("decomp.formats.load", "decomp.view.scene.scene_of"):
+    for name in ("decomp.formats.load", "decomp.view.reading.scene_of"):
         monkeypatch.setattr(name, computed)
     return tmp_path
 

@@ -1,9 +1,9 @@
-"""`decomp view`: the page in headless Chromium, the image, what cannot be viewed."""
+"""`decomp view`: scenes of files, the image, the window, what cannot be viewed."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +11,14 @@ import numpy as np
 import pytest
 
 from decomp.cli.main import main
+from decomp.drawing import of_mesh
+from decomp.drawing.colouring import colouring
+from decomp.drawing.colours import CATEGORIES, PALETTE, rgb, spread
+from decomp.drawing.scene import Body
 from decomp.output import write
+from decomp.tetra.incidence import faces_of
 from decomp.view import page
-from decomp.view.colours import CATEGORIES, rgb
-from decomp.view.scene import scene_of
-from tests import browser as browsers
+from decomp.view.reading import scene_of
 from tests.mesh_output.shapes import bar
 from tests.skeleton_fixtures import block
 
@@ -24,7 +27,8 @@ def test_parts_of_each_kind_of_file(tmp_path: Path) -> None:
     model = scene_of(tmp_path / "block.geo", block().skeleton)
     count = {g: sum(p.group == g for p in model.parts) for g in ("sheet", "cell", "face")}
     assert count == {"sheet": 13, "cell": 6, "face": 6}
-    assert max(float(part.value.max()) for part in model.parts) == pytest.approx(1.0)
+    (radius,) = model.fields
+    assert float(radius.values.max()) == pytest.approx(1.0)
     bar().write(tmp_path / "bar.msh")
     mesh = scene_of(tmp_path / "bar.msh")
     assert [p.name for p in mesh.parts if p.group == "cell"] == [
@@ -123,82 +127,98 @@ def test_names_cannot_break_out_of_the_page(tmp_path: Path) -> None:
     text = page.encoded(bad).decode()
     assert "</script><" not in text.split('id="data"')[1].split("</script>")[0]
     assert "\\u003c/script>" in text
-    assert "<title>&lt;/title>" in text
+    assert "<title>&lt;/title&gt;" in text
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with browsers.launched("--use-gl=angle", "--use-angle=swiftshader") as chromium:
-        yield chromium
+def test_the_hull_of_some_tetrahedra() -> None:
+    """What is between them and all else, each face once, and pointing out."""
+    mesh = bar()
+    neighbours = of_mesh.neighbours_of(mesh.tets)
+    body = Body(mesh.tets, mesh.tet_tags, neighbours)
+    for tet, around in enumerate(neighbours[:50]):
+        for face, other in enumerate(around):
+            if other >= 0:
+                corners = set(faces_of(mesh.tets[[tet]])[face])
+                assert corners <= set(mesh.tets[other])
+    kept = np.flatnonzero(mesh.tet_tags == 3)
+    faces, owner = of_mesh.hull(body, kept)
+    a, b, c = np.moveaxis(mesh.points[faces], 1, 0)
+    # a cube of side 1: its area, and its volume by the divergence theorem
+    assert np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2 == pytest.approx(6)
+    assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(1)
+    assert set(owner) <= set(kept)
 
 
-def opened(browser: Any, path: Path) -> tuple[Any, list[str]]:
-    """A page without network, and what its console complains of."""
-    view = browser.new_page(viewport={"width": 1280, "height": 800}, offline=True)
-    loud = browsers.complaints(view)
-    view.goto(path.as_uri())
-    view.wait_for_function("window.decompView !== undefined", timeout=30000)
-    return view, loud
+def test_colours_differ() -> None:
+    """All of few pieces, the neighbours among many, and as many as can where all are neighbours."""
+    few = [np.array([k, k + 1]) for k in range(len(PALETTE))]
+    assert sorted(spread(few, 30)) == list(range(len(PALETTE)))
+    size = 12
+    corner = np.arange((size + 1) ** 2).reshape(size + 1, size + 1)
+    squares = [corner[i : i + 2, j : j + 2].ravel() for i in range(size) for j in range(size)]
+    found = np.array(spread(squares, corner.size)).reshape(size, size)
+    assert (found[1:] != found[:-1]).all()
+    assert (found[:, 1:] != found[:, :-1]).all()
+    counts = np.bincount(found.ravel())
+    assert counts.max() - counts.min() <= 1
+    clique = spread([np.arange(2)] * (2 * len(PALETTE)), 2)
+    assert np.bincount(clique).tolist() == [2] * len(PALETTE)
+    assert len(set(PALETTE)) == len(PALETTE)
 
 
-def put(view: Any, name: str, value: float) -> None:
-    """Move a slider."""
-    view.evaluate(
-        "([name, value]) => { const e = document.getElementById(name); e.value = value; "
-        "e.dispatchEvent(new Event('input')); }",
-        [name, value],
-    )
+def test_cells_and_regions_of_a_mesh_are_coloured_apart() -> None:
+    scene = of_mesh.scene_of(bar())
+    colours = colouring(scene)
+    cells = [k for k, part in enumerate(scene.parts) if part.group == "cell"]
+    assert len({colours.parts[k] for k in cells}) == 3
+    assert len(set(colours.regions.values())) == 2
+    assert list(colours.regions) == ["left", "right"]
 
 
-def drawn(view: Any) -> np.ndarray:
+def test_a_picture_as_it_is_asked_for(tmp_path: Path) -> None:
     from PIL import Image
 
-    shot = view.locator("#stage canvas").screenshot()
-    return np.asarray(Image.open(io.BytesIO(shot)).convert("RGB")).astype(int)
-
-
-def test_the_page_in_a_browser(browser: Any, tmp_path: Path) -> None:
-    path = tmp_path / "block.html"
-    path.write_bytes(page.encoded(scene_of(tmp_path / "block.geo", block().skeleton)))
-    view, loud = opened(browser, path)
-    before = drawn(view)
-    assert ((before < 250).any(axis=2)).mean() > 0.05
-    # explode moves parts apart
-    put(view, "explode", 1)
-    apart = view.evaluate("window.decompView.meshes.map(m => m.position.length())")
-    assert sum(length > 0.3 for length in apart) >= 12
-    assert (drawn(view) != before).any(axis=2).mean() > 0.02
-    # the list hides by name
-    boxes = view.locator("#names details").first.locator(".item input")
-    assert boxes.count() == 13
-    boxes.first.uncheck()
-    visible = view.evaluate("window.decompView.meshes.filter(m => m.visible).length")
-    assert visible == 12
-    view.locator("#all-sheet").uncheck()
-    assert (drawn(view) > 250).all()
-    view.locator("#all-sheet").check()
-    # slicing takes away, colours change, names appear under the pointer
-    whole = drawn(view)
-    put(view, "slice", 0.4)
-    assert (drawn(view) < 250).sum() < (whole < 250).sum()
-    view.select_option("#colour", "value")
-    assert view.locator("#bar").count() == 1
-    put(view, "slice", 1)
-    put(view, "explode", 0)
-    box = view.locator("#stage canvas").bounding_box()
-    view.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    assert view.locator("#tip").inner_text().startswith("solid/sheet-")
-    assert loud == []
-    view.close()
-
-
-def test_a_mesh_in_a_browser(browser: Any, tmp_path: Path) -> None:
     bar().write(tmp_path / "bar.msh")
-    assert main(["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "bar.html")]) == 0
-    view, loud = opened(browser, tmp_path / "bar.html")
-    assert ((drawn(view) < 250).any(axis=2)).mean() > 0.05
-    text = view.locator("#names").inner_text()
-    for name in ("left/front", "left/cell-1", "right/side"):
-        assert name in text
-    assert loud == []
-    view.close()
+    told = ["view", str(tmp_path / "bar.msh"), "--quiet", "-o"]
+    assert main([*told, str(tmp_path / "a.png"), "--camera=-y", "--size-px", "320x200"]) == 0
+    more = ["--camera=0,-2,0", "--clip", "y=0.3", "--size-px", "320x200"]
+    assert main([*told, str(tmp_path / "b.png"), *more]) == 0
+    one, other = (Image.open(tmp_path / f"{name}.png") for name in "ab")
+    assert one.size == other.size == (320, 200)
+    # cut across its elements there are more of their edges
+    dark = [int((np.asarray(image.convert("L")) < 70).sum()) for image in (one, other)]
+    assert dark[0] != dark[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("--camera up", "'up' is none of iso, .*, nor X,Y,Z"),
+        ("--camera 0,0,0", "0,0,0 tells no direction"),
+        ("--camera 1,nan,0", "tells no direction"),
+        ("--clip w", "'w' is no axis: x, y or z, such as y or y=2.5"),
+        ("--clip y=", "'' is no number to cut y at"),
+        ("--clip y=inf", "'inf' is no number"),
+        ("--size-px 12", "'12' is no size such as 1200x900"),
+        ("--size-px 10x10", "sides must be from 64 to 8192 pixels, not 10x10"),
+        ("--clip y=5", "cut at y = 5, nothing is left to be seen"),
+    ],
+)
+def test_pictures_that_cannot_be(
+    given: str, message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bar().write(tmp_path / "bar.msh")
+    told = ["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "b.png"), *given.split()]
+    try:
+        assert main(told) == 2
+    except SystemExit as ended:
+        assert ended.code == 2
+    assert re.search(message, " ".join(capsys.readouterr().err.split()))
+    assert not (tmp_path / "b.png").exists()
+
+
+def test_a_page_has_no_camera(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    bar().write(tmp_path / "bar.msh")
+    told = ["view", str(tmp_path / "bar.msh"), "-o", str(tmp_path / "b.html"), "--clip", "y"]
+    assert main(told) == 2
+    assert "--size-px are of pictures: give a .png with -o" in capsys.readouterr().err

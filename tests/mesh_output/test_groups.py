@@ -252,10 +252,11 @@ FAULTS = {
         "sink/fin#1.zmax would be in two groups, 'a' and 'b'",
     ),
     "unlike": ({"a": ["sink", "base.zmax"]}, "group 'a' would join regions and faces"),
-    "no face of an edge": (
-        {"a": "base.zmax&fon.xmin"},
-        "'*/fon.xmin' of group 'a' stands",
+    "no edge": (
+        {"a": "base.zmax&fin#1.zmax"},
+        "none of the edges; did you mean 'sink/base.zmax&fin",
     ),
+    "no interface": ({"a": "sink/*|chop/*.zmax"}, "'chop/*.zmax' of group 'a' stands"),
     "taken": (
         {"sink/base.zmin": "fin*.zmax"},
         "'sink/base.zmin' cannot be the name of a group of sink/fin#",
@@ -272,7 +273,7 @@ def test_what_cannot_be(fault: str) -> None:
     groups, said = FAULTS[fault]
     with pytest.raises(InputError) as caught:
         mesh().grouped(groups=groups)  # type: ignore[arg-type]
-    if fault not in ("no face of an edge", "near"):
+    if fault != "no interface":
         assert said in str(caught.value)
     told: list[str] = []
     with pytest.raises(InputError) as caught:

@@ -60,7 +60,7 @@ def test_ignored_statements_are_told_of() -> None:
     assert as_text(found)[-1] == "  ignored: line 4: point (1,1,1)"
     assert list(as_json(found)["ignored"]) == [{"statement": "point (1,1,1)", "line": 4}]
     page = encoded(bar(), found).decode()
-    assert "<h2>Ignored statements</h2>" in page
+    assert "<summary>Ignored statements (" in page
     assert "<td>4</td><td>point (1,1,1)</td>" in page
     assert "Ignored" not in encoded(bar(), report(bar())).decode()
 
