@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -37,6 +38,9 @@ LAST: Final = 4
 """So often a lenient mesh is measured thoroughly."""
 PATIENCE: Final = 12
 """So often triangles that only lean are split."""
+GROWING: Final = 12
+"""Where folds have grown in so many batches in a row, with the largest error as it was, it is
+without end."""
 
 
 def refine(given: Complex, tolerance: float | Array, progress: Progress | None = None) -> Complex:
@@ -86,8 +90,11 @@ def refined(
 def _split(mesh: Mesh, progress: Progress | None) -> None:
     """Split and flip until all errors are within the limit and no triangle leans."""
     patience = PATIENCE
+    history: list[tuple[int, float]] = []
     for _ in range(ROUNDS):
         flip(mesh)
+        if not mesh.lenient:
+            _check_growth(mesh, history)
         if progress is not None:
             progress(len(mesh.triangles))
         if split_lines(mesh) or split_inside(mesh):
@@ -104,6 +111,24 @@ def _split(mesh: Mesh, progress: Progress | None) -> None:
     name = mesh.elements.names[int(mesh.surface[worst])]
     at = mesh.points[mesh.triangles[worst]].mean(axis=0)
     raise GeometryError(f"the {name} cannot be followed to the tolerance near {{at}}", at=at)
+
+
+def _check_growth(mesh: Mesh, history: list[tuple[int, float]]) -> None:
+    """See that folds do not only grow: each split of one then makes two, without end.
+
+    Args:
+        history: the number of folded triangles and the largest error of each batch so far; those
+            of this one are added.
+    """
+    folded = np.flatnonzero(mesh.upright < 0)
+    history.append((len(folded), float(mesh.error.max(initial=0.0))))
+    last = history[-1 - GROWING :]
+    grown = all(after[0] > before[0] for before, after in pairwise(last))
+    if len(last) > GROWING and grown and last[-1][1] >= last[0][1]:
+        worst = int(folded[np.argmax(mesh.error[folded])])
+        name = mesh.elements.names[int(mesh.surface[worst])]
+        at = mesh.points[mesh.triangles[worst]].mean(axis=0)
+        raise GeometryError(f"triangles fold over without end on the {name} at {{at}}", at=at)
 
 
 def _check_folds(mesh: Mesh, least_upright: float) -> None:

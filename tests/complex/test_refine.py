@@ -15,7 +15,8 @@ from decomp.carriers import Plane
 from decomp.complex.boundary import boundary_mesh
 from decomp.complex.errors_of import chord_error, flipped
 from decomp.complex.model import Complex
-from decomp.complex.refine import refine, refined
+from decomp.complex.refine import GROWING, _check_growth, refine, refined
+from decomp.complex.refine_mesh import Mesh
 from decomp.errors import GeometryError
 from tests.complex import shapes
 from tests.solids import SOLIDS
@@ -278,6 +279,28 @@ class Nowhere(shapes.Round):
 
     def place(self, points: np.ndarray) -> np.ndarray:
         return points + 0.1
+
+
+@pytest.mark.parametrize(("shrinking", "raises"), [(1.0, True), (0.999, False)])
+def test_folds_that_only_grow_are_an_error(shrinking: float, raises: bool) -> None:
+    """Batch by batch one more triangle lies on its back; the largest error stays, or gets less."""
+    mesh = Mesh(shapes.torus(), np.full(len(shapes.torus().patches), 1e-2))
+    mesh.measure()
+    mesh.upright[:] = 1.0
+    history: list[tuple[int, float]] = []
+    for batch in range(GROWING):
+        mesh.upright[batch] = -0.5
+        mesh.error *= shrinking
+        _check_growth(mesh, history)
+    mesh.upright[GROWING] = -0.5
+    mesh.error *= shrinking
+    if raises:
+        with pytest.raises(GeometryError, match="triangles fold over without end on the"):
+            _check_growth(mesh, history)
+    else:
+        _check_growth(mesh, history)
+    mesh.upright[:] = 1.0
+    _check_growth(mesh, history)
 
 
 def test_an_element_that_does_not_place_is_an_error() -> None:
