@@ -17,4 +17,4 @@ def path_of(value: Any, what: str) -> Path:
     """
     if not isinstance(value, (str, os.PathLike)):
         raise InputError(f"{what} must be a path, got {value!r}")
-    return Path(value)
+    return value if isinstance(value, Path) else Path(value)

@@ -3,22 +3,45 @@
 from __future__ import annotations
 
 import argparse
+import re
 from collections.abc import Sequence
 from math import isfinite
-from pathlib import Path
+from pathlib import Path, PosixPath
 
-STDIN, STDOUT = Path("/dev/stdin"), Path("/dev/stdout")
-"""What `-` stands for: a model to read, whose first words tell its format, or a file to write."""
+
+class Stream(PosixPath):
+    """A stream of this process whose format is named, which its path does not tell."""
+
+    named = ""
+
+    @property
+    def suffix(self) -> str:
+        """That of a file of its format; empty if none is named."""
+        return self.named
 
 
 def input_path(text: str) -> Path:
-    """A file to read; `-` is stdin."""
-    return STDIN if text == "-" else Path(text)
+    """A file to read; `-` is stdin, `geo:-` stdin in that format."""
+    return _stream(text, "/dev/stdin") or Path(text)
 
 
 def output_path(text: str) -> Path:
-    """A file to write; `-` is stdout."""
-    return STDOUT if text == "-" else Path(text)
+    """A file to write; `-` is stdout, `vtu:-` stdout in that format."""
+    return _stream(text, "/dev/stdout") or Path(text)
+
+
+def _stream(text: str, path: str) -> Stream | None:
+    found = re.fullmatch(r"(?:(\w+):)?-", text)
+    if found is None:
+        return None
+    stream = Stream(path)
+    stream.named = f".{found[1]}" if found[1] else ""
+    return stream
+
+
+def to_stdout(outputs: Sequence[Path]) -> bool:
+    """Whether an output is written to stdout, so that nothing else may be."""
+    return any(isinstance(path, Stream) for path in outputs)
 
 
 def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: str = "") -> None:
@@ -36,8 +59,8 @@ def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: s
         action="append",
         default=[],
         metavar="OUT",
-        help=f"file to write, ending in {', '.join(suffixes)}, or - for stdout ({suffixes[0]}); "
-        f"may be given several times{more}",
+        help=f"file to write, ending in {', '.join(suffixes)}; - is stdout, "
+        f"{suffixes[1][1:]}:- stdout in that format; may be given several times{more}",
     )
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from decomp.csg.model import Model
 
 SHAPES = ("ball", "box")
-FILES = "Netgen .geo, OpenSCAD .csg or decomp .json; - for stdin"
+FILES = "Netgen .geo, OpenSCAD .csg or decomp .json; - or geo:- for stdin"
 
 
 def add_outside(parser: argparse.ArgumentParser) -> None:

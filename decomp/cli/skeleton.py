@@ -7,7 +7,7 @@ import json
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import STDOUT, add_output
+from decomp.cli.arguments import add_output, to_stdout
 from decomp.cli.said import say
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def run(options: argparse.Namespace) -> None:
         print(json.dumps(contents(skeleton), indent=1))
     elif not options.quiet:
         lines = as_text(skeleton, options.tolerance, options.certificate)
-        say(lines, to_errors=STDOUT in options.output)
+        say(lines, to_errors=to_stdout(options.output))
 
 
 def _run_facing(options: argparse.Namespace) -> None:
@@ -90,7 +90,7 @@ def _run_facing(options: argparse.Namespace) -> None:
         surface.write(path)
     if not options.quiet:
         lines = as_text(skeleton, options.tolerance, options.certificate)
-        say([*lines, "", *mid_text(surface)], to_errors=STDOUT in options.output)
+        say([*lines, "", *mid_text(surface)], to_errors=to_stdout(options.output))
 
 
 def mid_text(surface: MidSurface) -> list[str]:

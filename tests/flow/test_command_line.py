@@ -154,4 +154,13 @@ def test_from_stdin_to_stdout(tmp_path: Path) -> None:
     assert done.stdout.startswith(b"$MeshFormat\n4.1 1 8\n")
     assert b"region block" in done.stderr
     (tmp_path / "block.msh").write_bytes(done.stdout)
+    named = ["skeleton", "json:-", "-o", "obj:-"]
+    command = [sys.executable, "-m", "decomp", *named]
+    done = subprocess.run(command, input=as_json, capture_output=True, check=True)
+    assert b"\nv " in done.stdout
+    assert b"certificate holds" in done.stderr
+    command[-1] = "dwg:-"
+    done = subprocess.run(command, input=as_json, capture_output=True, check=False)
+    assert done.returncode == 2
+    assert b"'.dwg' is unknown as a suffix for skeletons" in done.stderr
     assert main(["check", str(MESHES / "block.geo"), str(tmp_path / "block.msh")]) == 0
