@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> None:
         ]
         head = {"model": skeleton.name, **counted_from(skeleton)}
         print(json.dumps({**head, "regions": regions}, indent=1))
-    elif not options.quiet:
+    else:
         say(as_text(skeleton, rows))
 
 

@@ -63,7 +63,7 @@ def run(options: argparse.Namespace) -> None:
             continue
         if options.json:
             found.append(as_json(result))
-        elif not options.quiet:
+        else:
             say([*as_text(result), *([""] if several else [])])
     if options.json:
         print(json.dumps(found if several else found[0], indent=1))

@@ -47,7 +47,11 @@ def parser() -> Parser:
     for module in COMMANDS:
         module.register(commands)
     for command in dict.fromkeys(commands.choices.values()):
-        command.add_argument("--quiet", action="store_true", help="say nothing but errors")
+        command.add_argument(
+            "--quiet",
+            action="store_true",
+            help="no summary, no progress: say what was asked for, and errors",
+        )
         command.add_argument(
             "--verbose",
             action="store_true",

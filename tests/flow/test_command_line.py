@@ -91,10 +91,17 @@ def test_one_of_several_is_missing(capsys: pytest.CaptureFixture[str]) -> None:
     ]
 
 
-@pytest.mark.parametrize("command", ["info", "describe"])
-def test_quiet_says_nothing(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("command", "asked"), [("info", "volume  24"), ("describe", "plane"), ("skeleton", "")]
+)
+def test_quiet_says_what_was_asked_for(
+    command: str, asked: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main([command, str(MESHES / "block.geo"), "--quiet"]) == 0
-    assert capsys.readouterr() == ("", "")
+    out, errors = capsys.readouterr()
+    assert asked in out
+    assert bool(out) == bool(asked)
+    assert errors == ""
 
 
 @pytest.mark.slow

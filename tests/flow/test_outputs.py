@@ -55,7 +55,7 @@ def contents(folder: Path) -> dict[str, tuple[int, bytes]]:
 LOST, TWICE, CLOSED = "this file is read", "two outputs would be", "it is read-only"
 REFUSED = [
     ("convert part.geo part.geo", r"'\.geo' is unknown as a suffix for models; use \.json"),
-    ("convert part.geo -", r"there is none as a suffix for models; use \.json"),
+    ("convert part.geo geo:-", r"'\.geo' is unknown as a suffix for models; use \.json"),
     ("convert part.geo new", "there is none as a suffix"),
     ("convert index.json index.json", LOST),
     ("convert index.json ./empty/../index.json", LOST),
