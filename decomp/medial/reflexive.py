@@ -188,6 +188,7 @@ class _Search:
         u = np.linspace(low, high, count + 1)
         width = (high - low) / count
         zeros: list[Array] = []
+        alone = np.empty(0)
         while True:
             depth = self._depth(u)
             zero = depth <= self._zero
@@ -195,17 +196,20 @@ class _Search:
             # a zero can lie closer to a sample than its depth allows
             open_ = ~zero & (depth < 2 * width)
             if width <= FINEST * self._size or not open_.any():
-                zeros.append(self._points(u[open_], width))
+                alone = self._points(u[open_], width)
                 break
             width /= 2
             u = np.unique(np.concatenate([u[open_] - width, u[open_] + width]))
             u = u[(u > low) & (u < high)]
         at = np.unique(np.concatenate(zeros))
-        if not len(at):
-            return []
         gaps = np.flatnonzero(np.diff(at) > 1.5 * (high - low) / count)
-        starts, ends = np.append(0, gaps + 1), np.append(gaps, len(at) - 1)
-        return [(float(at[i]), float(at[j])) for i, j in zip(starts, ends, strict=True)]
+        starts, ends = (
+            (np.append(0, gaps + 1), np.append(gaps, len(at) - 1)) if len(at) else (gaps, gaps)
+        )
+        runs = [(float(at[i]), float(at[j])) for i, j in zip(starts, ends, strict=True)]
+        # what is found beside a run's end is that end
+        apart = [u for u in alone.tolist() if all(max(a - u, u - b) > 2 * width for a, b in runs)]
+        return sorted([*runs, *((u, u) for u in apart)])
 
     def _points(self, u: Array, width: float) -> Array:
         """Zeros that are points, near some of the last samples: the depth is least there."""

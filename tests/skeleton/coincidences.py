@@ -197,6 +197,13 @@ def low_rounded_box() -> Solid:
     return rounded_box((4, 3, 3 * ROUND))
 
 
+def stepped_shaft() -> Solid:
+    """Beyond the step the keyway's edge is once as far from the neck's axis as the neck is."""
+    neck = Cylinder((0, 0, 0), (12, 0, 0), 5, name="neck")
+    body = Cylinder((12, 0, 0), (30, 0, 0), 6, name="body")
+    return (neck | body) - Block((14.25, -1, 4.5), (8, 2, 4), name="key")
+
+
 def pinned_rod() -> Solid:
     """The hole begins a diameter from the end: one point of the axis is as near to end and hole."""
     hole = Cylinder((2.6, -2, 0), (2.6, 2, 0), 0.6)
@@ -366,6 +373,9 @@ COINCIDENCES: dict[str, Coincidence] = {
         low_rounded_box,
         (3 + 2 * (6 + 1 + 1.5) * ROUND + pi * 5.5 * ROUND**2 + 4 / 3 * pi * ROUND**3,),
         (1,),
+    ),
+    "stepped shaft": Coincidence(
+        stepped_shaft, (948 * pi - 8 * (sqrt(35) + 36 * asin(1 / 6) - 9),), (1,)
     ),
     "pinned rod": Coincidence(pinned_rod, (7 * pi - _hole_volume(1, 0.6),), (0,)),
     # two rods have 16 r^3 / 3 in common, all three 8 (2 - sqrt(2)) r^3
