@@ -222,7 +222,8 @@ def _curved(
     content = abs(region.boundary.volume)
     change, part = abs(change) / content, CANCELLED * total / content
     shrunk = 1.0
-    if wanted.size is None and wanted.per_circle is None:
+    chosen = wanted.size is not None or region.name in wanted.of_regions
+    if not chosen and wanted.per_circle is None:
         if change > VOLUME:
             shrunk = sqrt(ASKED / change)
         if part > VOLUME:
