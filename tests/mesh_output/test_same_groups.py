@@ -196,6 +196,7 @@ print("found", json.dumps(found))
 """Before version 0.10 there are three results, and another module."""
 
 
+@pytest.mark.slow
 def test_dolfinx(tmp_path: Path) -> None:
     named().write(tmp_path / "sink.msh")
     said = said_by(DOLFINX, "dolfinx, gmsh", tmp_path).split("found ")[-1]
