@@ -18,8 +18,9 @@ from tests import pages
 
 PAGE = "docs/coming-from.md"
 BEFORE = {
-    "Gmsh": "import gmsh; gmsh.initialize(interruptible=False); occ = gmsh.model.occ; "
-    "gmsh.option.setNumber('General.Terminal', 0)",
+    "Gmsh": "import gmsh; gmsh.initialize(interruptible=False); "
+    "model, option = gmsh.model, gmsh.option; occ, field = model.occ, model.mesh.field; "
+    "option.setNumber('General.Terminal', 0)",
     "Netgen": "from netgen.csg import *",
     "PyVista": "import pyvista as pv",
 }
