@@ -8,12 +8,16 @@ from __future__ import annotations
 
 import re
 import sys
+import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import coaxial
 import fichera
+import flange
 import heat
+import heat_sink
+import housing
 import numpy as np
 import plate
 import sphere_modes
@@ -21,6 +25,9 @@ import sweep
 import torus_modes
 import transformer
 import wall_distance
+
+import decomp
+from decomp.cli.main import main as command
 
 HERE = Path(__file__).parent
 
@@ -114,6 +121,51 @@ def wall_distance_rows() -> Iterator[Row]:
         yield what, f"{error:.0e}", "0", ""
 
 
+def picture(made: decomp.TetMesh, name: str, *options: str) -> None:
+    """What `decomp view` draws of a mesh."""
+    with tempfile.TemporaryDirectory() as place:
+        path = Path(place) / "mesh.msh"
+        made.write(path)
+        picture = ["-o", str(HERE / name), "--size-px", "900x675", *options]
+        if command(["view", str(path), *picture]) != 0:
+            raise SystemExit(f"no picture {name}")
+
+
+def flange_rows() -> Iterator[Row]:
+    """The preload beside springs, and who carries the pull, with the picture."""
+    made = flange.meshed(flange.SIZE)
+    picture(made, "flange.png", "--camera=-0.5,-1,0.5", "--clip", "y=31")
+    joint = flange.Joint(made.to_skfem())
+    yield compared("preload of the bolt in N", flange.tightened(joint), flange.by_springs())
+    held, carried, by_stress = flange.pulled(joint)
+    yield compared("pull held below over the pull", held, 1.0)
+    yield compared("... carried by gasket and bolt, by reactions", carried, 1.0)
+    yield compared("... by the stress on the gasket", by_stress, 1.0)
+
+
+def heat_sink_rows() -> Iterator[Row]:
+    """The conductance to the air, and balances, with the picture."""
+    made = heat_sink.meshed(heat_sink.SIZE)
+    picture(made, "heat_sink.png", "--camera=-1,-2,-0.7")
+    warm = heat_sink.solved(made)
+    what = "conductance from the base's top to the air in W/K"
+    yield compared(what, warm.conductance, heat_sink.by_fin_theory())
+    yield compared("heat to the air over heat made", warm.balance, 1.0)
+    yield compared("heat from chip to sink over heat made", warm.pressed, 1.0)
+
+
+def housing_rows() -> Iterator[Row]:
+    """Forces of the screws, and the floor between two plates, with the picture."""
+    made = housing.meshed(housing.SIZE)
+    picture(made, "housing.png", "--camera=-1,-1.6,0.9")
+    loaded = housing.solved(made)
+    yield compared("force on the screws, down, over that on the floor", loaded.up, 1.0)
+    yield compared("... along, over that opposite to the hole", loaded.along, 1.0)
+    least, greatest = housing.BOUNDS
+    what = "bending of the floor by p a^4 / D"
+    yield what, f"{loaded.bending:.5f}", f"between {least} and {greatest}", ""
+
+
 EXAMPLES: dict[str, Callable[[], Iterator[Row]]] = {
     "heat": heat_rows,
     "coaxial": coaxial_rows,
@@ -124,6 +176,9 @@ EXAMPLES: dict[str, Callable[[], Iterator[Row]]] = {
     "plate": plate_rows,
     "sweep": sweep_rows,
     "wall_distance": wall_distance_rows,
+    "flange": flange_rows,
+    "heat_sink": heat_sink_rows,
+    "housing": housing_rows,
 }
 TABLE = re.compile(r"<!-- table -->\n(.*?)\n<!-- end -->", re.DOTALL)
 

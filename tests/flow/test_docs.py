@@ -28,6 +28,7 @@ PAGES = {
 }
 """Pages whose blocks are executed, how many there are, and the files that are there then."""
 ELSEWHERE = {
+    "coming-from.md": "tests/flow/test_coming_from.py",
     "commands.md": "tests/flow/test_docs.py",
     "examples/README.md": "tests/flow/test_examples.py",
     "limits.md": "tests/flow/test_newcomers.py",
