@@ -7,7 +7,7 @@ import numpy as np
 from decomp.tetra.layout import samples
 from decomp.tetra.sizes import curvatures
 from decomp.tetra.surface import MeshSurface
-from decomp.tetra.wishes import Reason, Wish, Wishes, joined
+from decomp.tetra.wishes import UNKNOWN, Reason, Wish, Wishes, joined
 from decomp.vectors import Array
 
 
@@ -29,5 +29,6 @@ def chords(surface: MeshSurface, sizes: Array, rise: float) -> Wishes:
             some, _ = samples(mesh.points, triangles, size)
             bend = np.abs(curvatures(region.boundary.carriers[face.carrier], some)).max(axis=0)
             lengths = np.minimum(np.sqrt(8 * rise / np.maximum(bend, 1e-300)), size)
-            found.append((some, lengths, Reason(f"curvature of {region.name}/{face.name}")))
+            bent = Reason(f"curvature of {region.name}/{face.name}")
+            found.append((some, lengths, ((lengths < size).astype(np.int64), (UNKNOWN, bent))))
     return joined(found)

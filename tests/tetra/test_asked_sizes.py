@@ -162,6 +162,13 @@ def test_the_least_of_two_and_its_reason() -> None:
     assert [reasons[k].what for k in which] == ["one", "two", "one"]
 
 
+def test_no_plane_face_is_said_to_be_bent() -> None:
+    bored = LOW - decomp.Cylinder((2, 2, -1), (2, 2, 2), 0.5, name="bore")
+    mesh = decomp.mesh(bored, size=0.8, elements_per_circle=24, cells="none")
+    (found,) = report(mesh).regions
+    assert [each.what for each in found.deciders] == ["curvature of solid/bore.side"]
+
+
 def test_checked_sizes() -> None:
     assert checked_sizes(None) == {}
     assert checked_sizes({"a": 1}) == {"a": 1.0}
