@@ -118,7 +118,7 @@ def region_curves(
     open_ = [piece for piece in loci if (piece.points[0] != piece.points[-1]).any()]
     turns = [piece.points[k] for piece in open_ for k in (0, -1)]
     turns += [run.points[k] for run in runs for k in (0, -1)]
-    touches = touching_points(incidence, seams)
+    touches = touching_points(incidence, [*seams, *trims])
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(

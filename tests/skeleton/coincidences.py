@@ -230,6 +230,15 @@ def ball_in_wide_air() -> dict[str, Solid]:
     return {"air": Sphere((0, 0, 0), 300, name="far") - ball, "ball": ball}
 
 
+def boss_as_high_as_a_hole_is_far() -> Solid:
+    """The trim over the boss's rim touches that over the hole's from outside it, in one point."""
+    plate = Cylinder((0, 0, 0), (0, 0, 3), 12, name="plate")
+    boss = Cylinder((0, 0, 1), (0, 0, 7), 3, name="boss")
+    x, y = 5.5 * cos(0.3), 5.5 * sin(0.3)
+    hole = Cylinder((x, y, -1), (x, y, 4), 1.5, name="hole")
+    return Sphere((0, 0, 3), 30, name="far") - ((plate | boss) - hole)
+
+
 def ring_in_wide_air() -> dict[str, Solid]:
     """The closed sheet around the ring is pointed where the ring's axis ends in it."""
     ring = Torus((0, 0, 0), (0, 0, 1), 2, 0.5, name="ring")
@@ -372,6 +381,9 @@ COINCIDENCES: dict[str, Coincidence] = {
     "cross of rods": Coincidence(cross_of_rods, (18 * pi - 8 * sqrt(2),), (1,)),
     "ball in wide air": Coincidence(
         ball_in_wide_air, (4 / 3 * pi * (300.0**3 - 1), 4 / 3 * pi), (2, 1)
+    ),
+    "boss as high as a hole is far": Coincidence(
+        boss_as_high_as_a_hole_is_far, (pi * (4 / 3 * 30**3 - 3 * 144 - 4 * 9 + 3 * 2.25),), (1,)
     ),
     "ring in wide air": Coincidence(
         ring_in_wide_air, (4 / 3 * pi * 60.0**3 - pi**2, pi**2), (1, 0)
