@@ -23,6 +23,7 @@ from decomp.medial.relabel import merging_rays, relabelled
 from decomp.medial.rims import rim_pieces
 from decomp.medial.sectors import with_pairs
 from decomp.medial.touching import touching_points
+from decomp.medial.touching_seams import touching_seams
 from decomp.sites import SiteIndex
 from decomp.tracing.graph import seam_graph
 from decomp.vectors import Array
@@ -119,6 +120,7 @@ def region_curves(
     turns = [piece.points[k] for piece in open_ for k in (0, -1)]
     turns += [run.points[k] for run in runs for k in (0, -1)]
     touches = touching_points(incidence, [*seams, *trims])
+    touches += touching_seams(index, incidence, seams)
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(

@@ -36,7 +36,7 @@ def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[
             for contact, foot in zip(piece.contacts, piece.feet, strict=True):
                 if len(contact) == 1:
                     for measure in _measures(incidence, contact[0], foot):
-                        zeros = _zeros(piece, measure)
+                        zeros = zero_minima(piece, measure)
                         found += [p for p in zeros if _at_end(incidence, contact[0], foot, p)]
     return found
 
@@ -83,8 +83,8 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
     return []
 
 
-def _zeros(piece: CurvePiece, measure: Measure) -> list[Array]:
-    """Points inside a piece at which a measure that is never negative has a zero minimum."""
+def zero_minima(piece: CurvePiece, measure: Measure) -> list[Array]:
+    """Points (3,) inside a piece at which a measure that is never negative has a zero minimum."""
     points = piece.points
     values = measure(points)
     inner = values[1:-1]

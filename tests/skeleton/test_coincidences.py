@@ -42,6 +42,23 @@ def test_sheet_between_trims_that_touch() -> None:
     assert area == pytest.approx(np.sqrt(2) * np.pi * (7**2 - 3**2 - 1.5**2), rel=2e-3)
 
 
+def test_seams_that_touch() -> None:
+    """The middle plane ends in the circle around each hole, which touches that beside the rim."""
+    found = decomp.skeleton(COINCIDENCES["flange on gasket"].make())
+    (area,) = _areas(found, "disc.base", "disc.top")
+    assert len(found.regions[0].sheets) == 1 + 2 * 6
+    assert area == pytest.approx(np.pi * (18**2 - 10**2 - 4 * 3.5**2), rel=1e-3)
+
+
+def test_seams_that_touch_part_a_sheet() -> None:
+    """The hole's circle touches two sides of the middle plane: the corner is a sheet of its own."""
+    found = decomp.skeleton(COINCIDENCES["hole in a corner"].make(), tolerance=3e-5)
+    corner, rest = sorted(_areas(found, "plate.zmin", "plate.zmax"))
+    assert corner == pytest.approx(25 * (1 - np.pi / 4), rel=3e-3)
+    assert rest == pytest.approx(36 * 16 - 25 * np.pi - 25 * (1 - np.pi / 4), rel=1e-3)
+    assert len(found.regions[0].sheets) == 2 + 2 * 5 + 4
+
+
 def test_random_bores() -> None:
     """Plates with a bore along them, wherever it lies."""
     rng = np.random.default_rng(5)
