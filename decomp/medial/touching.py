@@ -13,10 +13,10 @@ import numpy as np
 
 from decomp.complex.model import LineKind
 from decomp.medial.incidence import Incidence
-from decomp.medial.minima import least_values
 from decomp.medial.pieces import CurvePiece
 from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
+from decomp.tracing.minima import least_values
 from decomp.vectors import Array, Ints, norm
 
 CLOSE = 0.05
@@ -36,7 +36,7 @@ def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[
             for contact, foot in zip(piece.contacts, piece.feet, strict=True):
                 if len(contact) == 1:
                     for measure in _measures(incidence, contact[0], foot):
-                        zeros = zero_minima(piece, measure)
+                        zeros = _zeros(piece, measure)
                         found += [p for p in zeros if _at_end(incidence, contact[0], foot, p)]
     return found
 
@@ -83,8 +83,8 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
     return []
 
 
-def zero_minima(piece: CurvePiece, measure: Measure) -> list[Array]:
-    """Points (3,) inside a piece at which a measure that is never negative has a zero minimum."""
+def _zeros(piece: CurvePiece, measure: Measure) -> list[Array]:
+    """Points inside a piece at which a measure that is never negative has a zero minimum."""
     points = piece.points
     values = measure(points)
     inner = values[1:-1]
