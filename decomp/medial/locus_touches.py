@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from decomp.medial.minima import least_values
+from decomp.tracing.minima import least_values
 from decomp.vectors import Array
 
 CLOSE = 0.05

@@ -25,6 +25,7 @@ from decomp.medial.sectors import with_pairs
 from decomp.medial.touching import touching_points
 from decomp.sites import SiteIndex
 from decomp.tracing.graph import seam_graph
+from decomp.tracing.meeting_seams import SeamMeetings
 from decomp.vectors import Array
 
 SAME = 1e-9
@@ -102,7 +103,7 @@ def region_curves(
     graph = seam_graph(index, boundary, region, samples=samples)
     over = normal_curves(incidence)
     parts = reflexive_parts(index, incidence)
-    trims, runs = trim_pieces(index, incidence, over)
+    trims, locus_runs = trim_pieces(index, incidence, over)
     seams = seam_pieces(incidence, graph.seams)
     loci = reflexive_pieces(parts)
     found = [
@@ -117,10 +118,12 @@ def region_curves(
     # loci end exactly; centres that rest on one tell its end to half the digits
     open_ = [piece for piece in loci if (piece.points[0] != piece.points[-1]).any()]
     turns = [piece.points[k] for piece in open_ for k in (0, -1)]
-    turns += [run.points[k] for run in runs for k in (0, -1)]
-    touches = touching_points(incidence, seams)
+    turns += [run.points[k] for run in locus_runs for k in (0, -1)]
+    touches = touching_points(incidence, [*seams, *trims])
+    runs = [run for seam in graph.seams for run in seam.runs]
+    touches += [meeting.point for meeting in SeamMeetings(index, boundary, region).of(runs)]
     joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(
-        incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(runs)
+        incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(locus_runs)
     )

@@ -1,8 +1,8 @@
-"""Where a seam touches a trim without crossing it.
+"""Where a seam or a trim touches a trim without crossing it.
 
-A foot can come to the end of its site and turn back. The seam and the trim then have a point and a
-tangent in common, at which both must be cut. Along the seam a measure of how far the foot is from
-its site's end has a minimum there that is zero.
+A foot can come to the end of its site and turn back. The curve and the trim over that end then have
+a point and a tangent in common, at which both must be cut. Along the curve a measure of how far the
+foot is from its site's end has a minimum there that is zero.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ import numpy as np
 
 from decomp.complex.model import LineKind
 from decomp.medial.incidence import Incidence
-from decomp.medial.minima import least_values
 from decomp.medial.pieces import CurvePiece
 from decomp.sites.site import SiteKind
 from decomp.tracing.fields import site_fields
+from decomp.tracing.minima import least_values
 from decomp.vectors import Array, Ints, norm
 
 CLOSE = 0.05
@@ -29,10 +29,10 @@ Measure = Callable[[Array], Array]
 
 
 def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[Array]:
-    """Points (3,) at which seams touch trims."""
+    """Points (3,) at which seams and trims touch trims over the ends of their feet's sites."""
     found: list[Array] = []
     for piece in pieces:
-        if piece.kind is LineKind.SEAM:
+        if piece.kind in (LineKind.SEAM, LineKind.TRIM):
             for contact, foot in zip(piece.contacts, piece.feet, strict=True):
                 if len(contact) == 1:
                     for measure in _measures(incidence, contact[0], foot):

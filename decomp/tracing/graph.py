@@ -19,6 +19,7 @@ from decomp.tracing.fields import site_fields
 from decomp.tracing.graph_nodes import GraphNodes, OversteppedError
 from decomp.tracing.known_seams import KnownSeams
 from decomp.tracing.local import SeamRay, seam_rays
+from decomp.tracing.meeting_seams import SeamMeetings
 from decomp.tracing.seam_graph_model import Node, Piece, Seam, SeamGraph
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import SeamEnd, State, Traced
@@ -79,7 +80,7 @@ def _seam_graph(grower: _Grower, samples: int, seed: int) -> SeamGraph:
     grower.start_at_vertices()
     grower.grow()
     for turn in range(ROUNDS):
-        if not grower.start_at(grower.seeds(samples, seed + turn)):
+        if not (grower.start_at(grower.seeds(samples, seed + turn)) or grower.start_at_crossings()):
             break
     grower.check()
     return grower.graph
@@ -193,6 +194,16 @@ class _Grower:
             left = left[~self._seams.hold(seeds.points[left], seeds.feet[left], new)]
         return count
 
+    def start_at_crossings(self) -> int:
+        """Trace seams anew from where two of them cross unnoticed; return how many such places."""
+        runs = [run for seam in self._seams.seams for run in seam.runs]
+        slack, count = self._points.tolerances.same, 0
+        for meeting in SeamMeetings(self._index, self._boundary, self._region).of(runs):
+            if meeting.dip > slack and self._nodes.known(meeting.point) is None:
+                self._grow_from(meeting.point)
+                count += 1
+        return count
+
     def unknown(self, seeds: Seeds, seams: KnownSeams) -> Ints:
         """Numbers of the seeds that are not on given seams."""
         return np.flatnonzero(~seams.hold(seeds.points, seeds.feet))
@@ -275,9 +286,14 @@ class _Grower:
         """The node at the end of a traced seam, its ray there taken by the seam.
 
         One that comes back to its `start` ends there.
+
+        Raises:
+            OversteppedError: it started at no node and closes one way round only.
         """
         last = traced.last
         if traced.end is SeamEnd.CLOSED:
+            if start < 0:
+                raise OversteppedError("the seam through {at} is closed one way", at=last.point)
             node = start
         elif traced.end is SeamEnd.BOUNDARY:
             node = self._nodes.on_boundary(last)

@@ -44,6 +44,15 @@ class Piece:
 
 
 @dataclass(frozen=True, eq=False)
+class SeamRun:
+    """The points (n, 3) of a part of a seam with constant sites, and their feet (n, m, 3)."""
+
+    sites: tuple[int, ...]
+    points: Array
+    feet: Array
+
+
+@dataclass(frozen=True, eq=False)
 class Seam:
     """A curve of points with three or more contacts.
 
@@ -97,6 +106,15 @@ class Seam:
         else:
             starts, stops = [0], [n]
         return tuple(Piece(self.sites[a % n], a, b) for a, b in zip(starts, stops, strict=True))
+
+    @property
+    def runs(self) -> tuple[SeamRun, ...]:
+        """The points of its pieces."""
+        rows = [np.arange(piece.start, piece.end + 1) % len(self.points) for piece in self.pieces]
+        return tuple(
+            SeamRun(piece.sites, self.points[row], self.feet[row])
+            for piece, row in zip(self.pieces, rows, strict=True)
+        )
 
 
 @dataclass(frozen=True, eq=False)

@@ -237,6 +237,32 @@ def ball_in_wide_air() -> dict[str, Solid]:
     return {"air": Sphere((0, 0, 0), 300, name="far") - ball, "ball": ball}
 
 
+def boss_as_high_as_a_hole_is_far() -> Solid:
+    """The trim over the boss's rim touches that over the hole's from outside it, in one point."""
+    plate = Cylinder((0, 0, 0), (0, 0, 3), 12, name="plate")
+    boss = Cylinder((0, 0, 1), (0, 0, 7), 3, name="boss")
+    x, y = 5.5 * cos(0.3), 5.5 * sin(0.3)
+    hole = Cylinder((x, y, -1), (x, y, 4), 1.5, name="hole")
+    return Sphere((0, 0, 3), 30, name="far") - ((plate | boss) - hole)
+
+
+def flange_on_gasket() -> dict[str, Solid]:
+    """The flange is as thick as the way from its rim to its holes: seams touch in four points."""
+    bore = Cylinder((0, 0, -1), (0, 0, 7), 8, name="bore")
+    flange = Cylinder((0, 0, 1), (0, 0, 5), 20, name="disc") - bore
+    for k in range(4):
+        x, y = 14.5 * cos(0.3 + pi * k / 2), 14.5 * sin(0.3 + pi * k / 2)
+        flange = flange - Cylinder((x, y, -1), (x, y, 7), 1.5, name="bolt")
+    return {"flange": flange, "gasket": Cylinder((0, 0, 0), (0, 0, 1), 13, name="ring") - bore}
+
+
+def hole_in_a_corner() -> Solid:
+    """The plate is as thick as the way from the hole to two sides: the middle falls into two."""
+    return Block((0, 0, 0), (40, 20, 4), name="plate") - Cylinder(
+        (7, 7, -1), (7, 7, 5), 3, name="hole"
+    )
+
+
 def ring_in_wide_air() -> dict[str, Solid]:
     """The closed sheet around the ring is pointed where the ring's axis ends in it."""
     ring = Torus((0, 0, 0), (0, 0, 1), 2, 0.5, name="ring")
@@ -383,6 +409,13 @@ COINCIDENCES: dict[str, Coincidence] = {
     "ball in wide air": Coincidence(
         ball_in_wide_air, (4 / 3 * pi * (300.0**3 - 1), 4 / 3 * pi), (2, 1)
     ),
+    "boss as high as a hole is far": Coincidence(
+        boss_as_high_as_a_hole_is_far, (pi * (4 / 3 * 30**3 - 3 * 144 - 4 * 9 + 3 * 2.25),), (1,)
+    ),
+    "flange on gasket": Coincidence(
+        flange_on_gasket, (4 * pi * (400 - 64 - 4 * 2.25), pi * (169 - 64)), (-4, 0)
+    ),
+    "hole in a corner": Coincidence(hole_in_a_corner, (3200 - 36 * pi,), (0,)),
     "ring in wide air": Coincidence(
         ring_in_wide_air, (4 / 3 * pi * 60.0**3 - pi**2, pi**2), (1, 0)
     ),

@@ -25,6 +25,40 @@ def test_skeleton(name: str) -> None:
         assert sum(cell.volume for cell in region.cells) == pytest.approx(volume, rel=1e-3)
 
 
+def _areas(skeleton: decomp.Skeleton, *names: str) -> list[float]:
+    """The areas of the sheets between two sites of the first region."""
+    points, found = skeleton.complex.points, []
+    for sheet in skeleton.regions[0].sheets:
+        if sorted(skeleton.sites[site].name for site in sheet.sites) == sorted(names):
+            a, b, c = points[skeleton.complex.patches[sheet.patch].triangles.T]
+            found.append(float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2))
+    return found
+
+
+def test_sheet_between_trims_that_touch() -> None:
+    """The cone between plate and boss ends in a circle that the hole's circle touches."""
+    part = COINCIDENCES["boss as high as a hole is far"].make()
+    (area,) = _areas(decomp.skeleton(part), "plate.top", "boss.side")
+    assert area == pytest.approx(np.sqrt(2) * np.pi * (7**2 - 3**2 - 1.5**2), rel=2e-3)
+
+
+def test_seams_that_touch() -> None:
+    """The middle plane ends in the circle around each hole, which touches that beside the rim."""
+    found = decomp.skeleton(COINCIDENCES["flange on gasket"].make())
+    (area,) = _areas(found, "disc.base", "disc.top")
+    assert len(found.regions[0].sheets) == 1 + 2 * 6
+    assert area == pytest.approx(np.pi * (18**2 - 10**2 - 4 * 3.5**2), rel=1e-3)
+
+
+def test_seams_that_touch_part_a_sheet() -> None:
+    """The hole's circle touches two sides of the middle plane: the corner is a sheet of its own."""
+    found = decomp.skeleton(COINCIDENCES["hole in a corner"].make(), tolerance=3e-5)
+    corner, rest = sorted(_areas(found, "plate.zmin", "plate.zmax"))
+    assert corner == pytest.approx(25 * (1 - np.pi / 4), rel=3e-3)
+    assert rest == pytest.approx(36 * 16 - 25 * np.pi - 25 * (1 - np.pi / 4), rel=1e-3)
+    assert len(found.regions[0].sheets) == 2 + 2 * 5 + 4
+
+
 def test_random_bores() -> None:
     """Plates with a bore along them, wherever it lies."""
     rng = np.random.default_rng(5)

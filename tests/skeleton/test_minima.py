@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from decomp.medial.minima import least_values
+from decomp.tracing.minima import least_values
 from decomp.vectors import Array, Ints
 
 PLACES = st.lists(st.floats(0.05, 1.95), min_size=1, max_size=8)
