@@ -69,7 +69,7 @@ def test_the_sheet_between_is_found() -> None:
 
 def test_places_with_few_digits_are_refused_with_the_place_or_mended() -> None:
     """Steps lead past one of two junctions close together; a seam is closed one way only then."""
-    solid = decomp.Cylinder((0, 0, 0), (0, 0, 4), 20, name="disc")
+    solid: decomp.Solid = decomp.Cylinder((0, 0, 0), (0, 0, 4), 20, name="disc")
     for k in range(6):
         x, y = round(14 * np.cos(k * np.pi / 3), 5), round(14 * np.sin(k * np.pi / 3), 5)
         solid = solid - decomp.Cylinder((x, y, -1), (x, y, 5), 2, name="hole")
