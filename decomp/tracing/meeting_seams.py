@@ -83,6 +83,8 @@ class SeamMeetings:
         values = self._gaps(run.sites[0], site, foot, run.points, run.feet)
         near = np.abs(values)
         lowest = (near[1:-1] <= near[:-2]) & (near[1:-1] <= near[2:])
+        # where both are as near all along, the seams run side by side and do not meet
+        lowest &= np.minimum(values[:-2], values[2:]) > self._boundary.tolerances.same
         rows = np.flatnonzero(lowest & (near[1:-1] < CLOSE * self._boundary.diagonal)) + 1
         if not len(rows):
             return []
@@ -105,7 +107,9 @@ class SeamMeetings:
             if any(site in sharing for sharing in touched.sites):
                 row: Ints = np.full(3, k)
                 around = gaps(row, share[k] + np.array([-STEP, 0.0, STEP]))
-                found.append(Meeting(point, _dip(*around.tolist())))
+                dip = _dip(*around.tolist())
+                if np.isfinite(dip):
+                    found.append(Meeting(point, dip))
         return found
 
     def _own_contact(self, run: SeamRun, other: SeamRun) -> tuple[int, Array] | None:
@@ -151,6 +155,9 @@ def _box(run: SeamRun) -> tuple[Array, Array]:
 
 
 def _dip(before: float, here: float, after: float) -> float:
-    """How far a parabola through three values at equal steps goes below the middle one."""
+    """How far a parabola through three values at equal steps goes below the middle one.
+
+    Infinite if it has no least value.
+    """
     slope, bend = (after - before) / 2, before - 2 * here + after
     return float(slope**2 / (2 * bend)) if bend > 0 else np.inf
