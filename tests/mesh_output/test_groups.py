@@ -47,9 +47,18 @@ def sink() -> decomp.Geometry:
     )
 
 
+def clean(order: int, size: float) -> TetMesh:
+    """A mesh with all nodes on their surfaces: TetWild's luck, of which other tests are."""
+    for _ in range(4):
+        made = decomp.mesh(sink(), size=size, order=order)
+        if not len(made.unprojected):
+            break
+    return made
+
+
 @cache
 def mesh() -> TetMesh:
-    return decomp.mesh(sink(), size=1.5)
+    return clean(1, 1.5)
 
 
 def area(made: TetMesh, name: str) -> float:
@@ -170,7 +179,7 @@ def test_files(kind: str, order: int, tmp_path: Path) -> None:
 
 @cache
 def quadratic_sink() -> TetMesh:
-    return decomp.mesh(sink(), size=3, order=2)
+    return clean(2, 3)
 
 
 @pytest.mark.parametrize("suffix", [".vtu", ".xdmf", ".msh"])
