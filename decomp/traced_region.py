@@ -6,14 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.certificate import Certified, certified
+from decomp.certificate.certificate import Certified
 from decomp.certificate.evidence import Evidence
-from decomp.complex.model import Complex, LineKind
+from decomp.certified_region import certified_region
+from decomp.complex.model import Complex
 from decomp.geometry import Geometry
 from decomp.medial.assembly import RegionParts
 from decomp.medial.described import RegionDescription
 from decomp.medial.region_curves import RegionCurves
-from decomp.medial.result import RegionSkeleton, TrimSurface
+from decomp.medial.result import Method, RegionSkeleton, TrimSurface
 from decomp.medial.trim_maker import owners
 from decomp.tracing.queries import region_queries
 from decomp.vectors import Array, Ints
@@ -80,19 +81,4 @@ class TracedRegion:
             cells,
             of_faces,
         )
-        found = certified(evidence)
-        region = RegionSkeleton(
-            boundary.name,
-            boundary,
-            sheets,
-            tuple(line for kind, line in lines if kind is LineKind.SEAM),
-            tuple(line for kind, line in lines if kind is LineKind.TRIM),
-            tuple(line for kind, line in lines if kind is LineKind.RIM),
-            drawn.junctions(),
-            reflexive,
-            self.face_sides,
-            cells,
-            of_faces,
-            found.certificate,
-        )
-        return region, found
+        return certified_region(evidence, boundary, lines, drawn.junctions(), Method.TRACED)

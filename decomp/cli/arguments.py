@@ -39,9 +39,9 @@ def _stream(text: str, path: str) -> Stream | None:
     return stream
 
 
-def to_stdout(outputs: Sequence[Path]) -> bool:
-    """Whether an output is written to stdout, so that nothing else may be."""
-    return any(isinstance(path, Stream) for path in outputs)
+def are_streams(paths: Sequence[Path]) -> bool:
+    """Whether some are stdin or stdout; where a file is written to that, nothing else may be."""
+    return any(isinstance(path, Stream) for path in paths)
 
 
 def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: str = "") -> None:

@@ -15,6 +15,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+from decomp.cli.arguments import are_streams
 from decomp.cli.said import say
 from decomp.errors import DecompError, FileError, InputError
 from decomp.files.targets import check_outputs, reason
@@ -61,6 +62,8 @@ def run(options: argparse.Namespace) -> None:
     for name in ("report", "html"):
         if getattr(options, name) is not None:
             raise InputError(f"--{name} is for one model; a batch prints a table")
+    if are_streams([*options.models, *options.output]):
+        raise InputError("- is one model or one file; of several each has a name")
     targets = _targets(options)
     outcomes = _meshed(options, targets)
     if not options.quiet:

@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import add_output, input_path, positive, to_stdout
+from decomp.cli.arguments import add_output, are_streams, input_path, positive
 from decomp.cli.groups import all_groups, named_patterns
 from decomp.cli.models import add_outside, model_of
 from decomp.cli.said import say
@@ -255,7 +255,7 @@ def run(options: argparse.Namespace) -> None:
         write_whole(options.html, report_page.encoded(mesh, figures))
     if not options.quiet:
         lines = [*as_text(figures), f"  written: {', '.join(str(path) for path in outputs)}"]
-        say(lines, to_errors=to_stdout(outputs))
+        say(lines, to_errors=are_streams(outputs))
 
 
 def _as_bytes(values: dict[str, Any]) -> bytes:

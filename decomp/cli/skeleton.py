@@ -7,8 +7,9 @@ import json
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from decomp.cli.arguments import add_output, to_stdout
+from decomp.cli.arguments import add_output, are_streams
 from decomp.cli.said import say
+from decomp.errors import InputError
 
 if TYPE_CHECKING:
     from decomp.medial.facing import MidSurface
@@ -52,6 +53,8 @@ def run(options: argparse.Namespace) -> None:
     from decomp.files.targets import check_outputs
     from decomp.output import suffix_of, write
 
+    if options.json and are_streams(options.output):
+        raise InputError("--json prints to stdout, where -o - writes the skeleton: leave one away")
     if options.facing is not None:
         _run_facing(options)
         return
@@ -67,13 +70,12 @@ def run(options: argparse.Namespace) -> None:
         print(json.dumps(contents(skeleton), indent=1))
     elif not options.quiet:
         lines = as_text(skeleton, options.tolerance, options.certificate)
-        say(lines, to_errors=to_stdout(options.output))
+        say(lines, to_errors=are_streams(options.output))
 
 
 def _run_facing(options: argparse.Namespace) -> None:
     """The same for the mid-surface."""
     from decomp.cli.computing import computed
-    from decomp.errors import InputError
     from decomp.files.targets import check_outputs
     from decomp.medial.facing import mid_surface
     from decomp.output.mid_surface import suffix_of
@@ -90,7 +92,7 @@ def _run_facing(options: argparse.Namespace) -> None:
         surface.write(path)
     if not options.quiet:
         lines = as_text(skeleton, options.tolerance, options.certificate)
-        say([*lines, "", *mid_text(surface)], to_errors=to_stdout(options.output))
+        say([*lines, "", *mid_text(surface)], to_errors=are_streams(options.output))
 
 
 def mid_text(surface: MidSurface) -> list[str]:

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli import look
-from decomp.cli.arguments import add_output, to_stdout
+from decomp.cli.arguments import add_output, are_streams
 from decomp.cli.said import say
 from decomp.errors import InputError
 
@@ -61,7 +61,7 @@ def run(options: argparse.Namespace) -> None:
         regions = [] if skeleton is None else skeleton.regions
         lines = [f"written: {', '.join(str(path) for path in options.output)}"]
         lines += [line for region in regions for line in method_text(region)]
-        say(lines, to_errors=to_stdout(options.output))
+        say(lines, to_errors=are_streams(options.output))
 
 
 def show(scene: Scene) -> None:

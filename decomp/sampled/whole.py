@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.certificate import Certified, certified
+from decomp.certificate.certificate import Certified
 from decomp.certificate.evidence import Evidence
+from decomp.certified_region import certified_region
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
@@ -277,24 +278,9 @@ class Described:
             cells,
             of_faces,
         )
-        found = certified(evidence)
         lines = self._lines(number)
-        region = RegionSkeleton(
-            boundary.name,
-            boundary,
-            sheets,
-            tuple(line for kind, line in lines if kind is LineKind.SEAM),
-            tuple(line for kind, line in lines if kind is LineKind.TRIM),
-            tuple(line for kind, line in lines if kind is LineKind.RIM),
-            self._junctions(number, lines),
-            reflexive,
-            face_sides,
-            cells,
-            of_faces,
-            found.certificate,
-            Method.SAMPLED,
-        )
-        return region, found
+        junctions = self._junctions(number, lines)
+        return certified_region(evidence, boundary, lines, junctions, Method.SAMPLED)
 
     def _sheet(self, region: int, patch: int, sites: tuple[int, int]) -> Sheet:
         triangles = self.mesh.patches[patch].triangles

@@ -9,7 +9,7 @@ import numpy as np
 
 from decomp.shown import Shown
 from decomp.tetra.group import Group, GroupKind
-from decomp.vectors import Array, Ints
+from decomp.vectors import Ints
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +77,3 @@ def looked_up(table: dict[int, int], tags: Ints, default: int = -1) -> Ints:
     found, which = np.unique(tags, return_inverse=True)
     entries = np.array([table.get(int(tag), default) for tag in found], dtype=np.int64)
     return entries[which.reshape(-1)]
-
-
-def per_region(values: Array, regions: Ints, parts: Parts) -> Array:
-    """The sum (r,) of values (m,) of tetrahedra in each region, these told by their tags (m,)."""
-    return np.array([values[regions == region.tag].sum() for region in parts.regions])

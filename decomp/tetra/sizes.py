@@ -102,11 +102,12 @@ def region_sizes(geometry: Geometry, wanted: Wanted) -> Array:
     Raises:
         InputError: the model fits into the length asked for.
     """
-    if wanted.size is not None and wanted.size >= geometry.diagonal:
-        raise InputError(
-            f"size {wanted.size:g} is an edge's length in the model's units, and must be below the "
-            f"model's diagonal, {geometry.diagonal:.4g}"
-        )
+    for size in filter(None, (wanted.size, *wanted.of_regions.values())):
+        if size >= geometry.diagonal:
+            raise InputError(
+                f"size {size:g} is an edge's length in the model's units, and must be below the "
+                f"model's diagonal, {geometry.diagonal:.4g}"
+            )
     found = []
     for boundary, region in zip(geometry.regions, geometry.model.regions, strict=True):
         default = min(geometry.diagonal / PART_OF_MODEL, boundary.diagonal / PART_OF_REGION)
@@ -127,7 +128,7 @@ def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
     found: list[Wish] = []
     for number, region in enumerate(surface.regions):
         length = float(largest[number])
-        whole = region_reason(geometry, wanted, number)
+        whole = _region_reason(geometry, wanted, number, length)
         patches = [p for sides in region.face_sides for p, _ in sides] + list(region.sheets)
         triangles = np.concatenate([mesh.patches[p].triangles for p in patches])
         some, _ = samples(mesh.points, triangles, length)
@@ -137,32 +138,33 @@ def wishes(geometry: Geometry, surface: MeshSurface, wanted: Wanted) -> Wishes:
         own = _across(thick, length, wanted.layers)
         thin = Reason(f"{'thickness' if wanted.layers is None else 'layers'} of {region.name}")
         found.append((some, own, ((own < length).astype(np.int64), (whole, thin))))
-    return joined(*_asked_for(geometry, wanted, found))
+    return joined(*_asked_for(geometry, wanted, found, float(largest.max())))
 
 
-def region_reason(geometry: Geometry, wanted: Wanted, number: int) -> Reason:
+def _region_reason(geometry: Geometry, wanted: Wanted, number: int, size: float) -> Reason:
     """What the length all over a region comes from."""
     region = geometry.model.regions[number]
-    size = float(region_sizes(geometry, wanted)[number])
     if region.name in wanted.of_regions or size == region.options.get("maxh"):
         return Reason(f"size of {region.name}", True)
     return Reason("size" if size == wanted.size else f"default of {region.name}", True)
 
 
 def _asked_for(
-    geometry: Geometry, wanted: Wanted, found: list[Wish]
+    geometry: Geometry, wanted: Wanted, found: list[Wish], most: float
 ) -> tuple[list[Wish], list[tuple[Lengths, Reason]]]:
-    """Wishes with those at places and of a field; and what is wanted everywhere."""
+    """Wishes with those at places and of a field, none longer; and what is wanted everywhere."""
     everywhere: list[tuple[Lengths, Reason]] = []
     for place in wanted.places:
         why = Reason(place.what)
         middle = (place.low + place.high)[None] / 2 - wanted.offset
-        found = [*found, (middle, np.array([place.length]), why)]
+        if place.length < most:
+            found = [*found, (middle, np.array([place.length]), why)]
         everywhere.append((partial(place.lengths, offset=wanted.offset), why))
     if wanted.everywhere is not None:
         why, lengths = Reason("size_field"), wanted.everywhere
         spots = np.concatenate([_inside(geometry), *(points for points, *_ in found)])
-        found = [*found, (spots, lengths(spots + wanted.offset), why)]
+        own = lengths(spots + wanted.offset)
+        found = [*found, (spots[own < most], own[own < most], why)]
         everywhere.append((lambda points: lengths.anywhere(points + wanted.offset), why))
     return found, everywhere
 

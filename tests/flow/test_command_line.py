@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -171,3 +172,19 @@ def test_from_stdin_to_stdout(tmp_path: Path) -> None:
     assert done.returncode == 2
     assert b"'.dwg' is unknown as a suffix for skeletons" in done.stderr
     assert main(["check", str(MESHES / "block.geo"), str(tmp_path / "block.msh")]) == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("mesh - other.geo -o made", "- is one model or one file"),
+        ("skeleton part.geo --json -o -", "--json prints to stdout"),
+    ],
+)
+def test_streams_that_would_mix(
+    words: str, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(words.split()) == 2
+    assert said in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

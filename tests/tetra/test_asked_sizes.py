@@ -75,6 +75,7 @@ def test_patterns_that_stand_for_nothing(pattern: str, said: str) -> None:
         ({"sizes": 3}, "sizes must be lengths by pattern"),
         ({"sizes": {"base": -1}}, "size of 'base' must be"),
         ({"sizes": {3: 1}}, "sizes must have patterns as keys"),
+        ({"sizes": {"*": 100}}, "size 100 is an edge's length"),
         ({"size_at": 3}, "size_at must be a list"),
         ({"size_at": [((0, 0, 0), 1, 2, 3)]}, "entry 1 of size_at must be"),
         ({"size_at": [((0, 0, 0), 1), ((0, 0), 1)]}, "entry 2 of size_at"),
@@ -130,6 +131,14 @@ def test_a_function_of_the_place() -> None:
         own = (x > low) & (x < high)
         assert 0.6 < lengths_of(mesh, own).mean() / wanted(middles(mesh)[own]).mean() < 1.2
     assert any("size_field decides" in line for line in as_text(report(mesh)))
+
+
+def test_longer_lengths_than_all_over_ask_for_nothing() -> None:
+    plain = decomp.mesh(LOW, size=0.8, cells="none")
+    places, nowhere = [((2, 2, 0.5), 50.0)], lambda points: np.full(len(points), np.inf)
+    asked = decomp.mesh(LOW, size=0.8, size_at=places, size_field=nowhere, cells="none")
+    assert 0.6 < len(asked.tets) / len(plain.tets) < 1.6
+    assert [each.what for each in report(asked).regions[0].deciders] == []
 
 
 def test_lengths_between_points_are_linear() -> None:
