@@ -36,9 +36,9 @@ from decomp.errors import DecompError
 from decomp.formats import load
 from decomp.formats.native import dumps
 from decomp.geometry import Geometry
+from decomp.meshes.files.msh_reader import read_msh
 from decomp.plain import plain
-from decomp.tetra.msh_reader import read_msh
-from tests.mesh_output.shapes import bar, cube, quadratic
+from tests.meshes.shapes import bar, cube, quadratic
 from tests.solids import SOLIDS
 
 ROOT = Path(__file__).parents[1]

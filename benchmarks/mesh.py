@@ -40,7 +40,7 @@ from benchmarks.csg_peers import Facets, Kernel, Netgen
 from decomp.csg.solid import Solid
 from decomp.formats import load
 from decomp.geometry import Geometry
-from decomp.tetra.quality import dihedral_angles, volumes
+from decomp.meshes.quality import dihedral_angles, volumes
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 
@@ -108,8 +108,8 @@ def figures(points: Any, tets: Any, exact: float) -> dict[str, float]:
 
 def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
     """The whole way; tells the edge length and epsilon that TetWild was given, too."""
-    from decomp import meshing
-    from decomp.tetra import tetrahedra
+    from decomp.meshing import tetrahedra
+    from decomp.ways import mesh as meshing
 
     meshing.mesh(SOLIDS["conical pit"].make())  # loads the kernels
     asked: list[Any] = []

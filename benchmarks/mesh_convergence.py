@@ -18,8 +18,8 @@ from rich.table import Table
 import decomp
 from decomp.carriers import Plane
 from decomp.geometry import Geometry
-from decomp.tetra.mesh import TetMesh
-from decomp.tetra.quality import volumes
+from decomp.meshes.model import TetMesh
+from decomp.meshes.quality import volumes
 from decomp.vectors import norm
 from tests.solids import SOLIDS
 

@@ -22,7 +22,7 @@ import decomp
 from benchmarks.skeleton_table import models
 from decomp.carriers import Plane
 from decomp.files.whole_file import write_whole
-from decomp.tetra.shortening import LONGEST
+from decomp.meshing.repairs.shortening import LONGEST
 
 ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "docs" / "meshes.md"

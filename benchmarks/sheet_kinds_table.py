@@ -17,10 +17,10 @@ import numpy as np
 
 import decomp
 from decomp.errors import DecompError
-from decomp.medial.result import Skeleton
-from decomp.medial.sheet_kinds import SheetKind, sheet_kinds
+from decomp.skeletons.model import Skeleton
+from decomp.skeletons.sheet_kinds import SheetKind, sheet_kinds
 from tests.corpus.files import FILES
-from tests.skeleton.computed import at_most, source_of
+from tests.skeletons.computed import at_most, source_of
 from tests.solids import SOLIDS
 
 PAGE = Path(__file__).parents[1] / "docs" / "sheets.md"

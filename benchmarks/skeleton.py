@@ -30,7 +30,7 @@ from rich.table import Table
 import decomp
 from decomp.complex.model import PatchKind
 from decomp.csg.solid import Solid
-from decomp.medial.result import Skeleton
+from decomp.skeletons.model import Skeleton
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 

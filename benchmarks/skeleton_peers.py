@@ -27,11 +27,11 @@ from rich.table import Table
 from scipy.spatial import Voronoi
 
 import decomp
-from decomp.certificate.coverage import boundary_samples, random_points, skeleton_tree
-from decomp.certificate.distance import triangle_distance, triangle_tree
-from decomp.certificate.evidence import Evidence
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
+from decomp.skeletons.certificate.coverage import boundary_samples, random_points, skeleton_tree
+from decomp.skeletons.certificate.distance import triangle_distance, triangle_tree
+from decomp.skeletons.certificate.evidence import Evidence
 
 REFERENCE = 1e-4
 APART = 3.0

@@ -26,7 +26,7 @@ import decomp
 from decomp.csg.solid import Solid
 from decomp.errors import DecompError
 from decomp.files.whole_file import write_whole
-from decomp.medial.result import RegionSkeleton, Skeleton
+from decomp.skeletons.model import RegionSkeleton, Skeleton
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 
@@ -61,9 +61,9 @@ def models() -> dict[str, Solid | Path]:
 
 def measured(name: str, balls: int) -> list[dict[str, Any]]:
     """Compute one model: a row for each region, with coverage measured anew by many balls."""
-    from decomp.certificate.coverage import coverage
-    from decomp.certificate.evidence import Evidence
-    from decomp.compute import skeleton
+    from decomp.skeletons.certificate.coverage import coverage
+    from decomp.skeletons.certificate.evidence import Evidence
+    from decomp.skeletons.compute import skeleton
 
     start = time.process_time()
     geometry = decomp.Geometry(models()[name])
@@ -79,7 +79,7 @@ def measured(name: str, balls: int) -> list[dict[str, Any]]:
 
 def row_of(skeleton: Skeleton, region: RegionSkeleton) -> dict[str, Any]:
     """What is told of a region."""
-    from decomp.certificate.certificate import shortcomings
+    from decomp.skeletons.certificate.certificate import shortcomings
 
     patches = skeleton.complex.patches
     return {

@@ -28,12 +28,12 @@ import decomp
 from benchmarks.designs import design
 from benchmarks.membership import volume
 from benchmarks.parts import FAMILIES, drawn
+from decomp.checking.check import check
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.formats import FORMATS
 from decomp.geometry import Geometry
-from decomp.medial.result import Method
-from decomp.tetra.check import check
+from decomp.skeletons.model import Method
 
 TRACED, SAMPLED, MESHED = "certified traced", "certified sampled", "meshed"
 REFUSED, WRONG, STOPPED, CRASHED = "refused", "wrong", "out of time", "crashed"

@@ -20,8 +20,8 @@ from typing import Any
 
 import decomp
 from decomp.csg.solid import Solid
-from decomp.medial.result import Skeleton
-from decomp.ways import Method
+from decomp.skeletons.model import Skeleton
+from decomp.ways.skeleton import Method
 from tests.corpus.files import FILES
 from tests.solids import SOLIDS
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from decomp.boundary.topology import Face as Face
     from decomp.boundary.topology import RegionBoundary as RegionBoundary
     from decomp.boundary.topology import Vertex as Vertex
+    from decomp.checking.check import Checked as Checked
+    from decomp.checking.check import check as check
     from decomp.csg.model import Model as Model
     from decomp.csg.model import Region as Region
     from decomp.csg.model import model as model
@@ -44,29 +46,27 @@ if TYPE_CHECKING:
     from decomp.formats import load as load
     from decomp.formats import save as save
     from decomp.geometry import Geometry as Geometry
-    from decomp.medial.facing import MidSurface as MidSurface
-    from decomp.medial.facing import mid_surface as mid_surface
-    from decomp.medial.result import Cell as Cell
-    from decomp.medial.result import Certificate as Certificate
-    from decomp.medial.result import Junction as Junction
-    from decomp.medial.result import Reflexive as Reflexive
-    from decomp.medial.result import RegionSkeleton as RegionSkeleton
-    from decomp.medial.result import Sheet as Sheet
-    from decomp.medial.result import Skeleton as Skeleton
-    from decomp.medial.result import SkeletonLine as SkeletonLine
-    from decomp.meshing import mesh as mesh
+    from decomp.meshes.files.reading import read as read
+    from decomp.meshes.group import Group as Group
+    from decomp.meshes.group import GroupKind as GroupKind
+    from decomp.meshes.model import TetMesh as TetMesh
+    from decomp.meshes.report import Report as Report
+    from decomp.meshes.report import report as report
+    from decomp.meshing.backends.tetwild.child import MeshingError as MeshingError
+    from decomp.midsurfaces.facing import MidSurface as MidSurface
+    from decomp.midsurfaces.facing import mid_surface as mid_surface
     from decomp.outside import with_outside as with_outside
     from decomp.sites import Nearest as Nearest
-    from decomp.tetra.check import Checked as Checked
-    from decomp.tetra.check import check as check
-    from decomp.tetra.child import MeshingError as MeshingError
-    from decomp.tetra.group import Group as Group
-    from decomp.tetra.group import GroupKind as GroupKind
-    from decomp.tetra.mesh import TetMesh as TetMesh
-    from decomp.tetra.reading import read as read
-    from decomp.tetra.report import Report as Report
-    from decomp.tetra.report import report as report
-    from decomp.ways import skeleton as skeleton
+    from decomp.skeletons.model import Cell as Cell
+    from decomp.skeletons.model import Certificate as Certificate
+    from decomp.skeletons.model import Junction as Junction
+    from decomp.skeletons.model import Reflexive as Reflexive
+    from decomp.skeletons.model import RegionSkeleton as RegionSkeleton
+    from decomp.skeletons.model import Sheet as Sheet
+    from decomp.skeletons.model import Skeleton as Skeleton
+    from decomp.skeletons.model import SkeletonLine as SkeletonLine
+    from decomp.ways.mesh import mesh as mesh
+    from decomp.ways.skeleton import skeleton as skeleton
 
 _HOMES = {
     "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
@@ -92,8 +92,8 @@ _HOMES = {
     ),
     "decomp.formats": ("load", "save"),
     "decomp.geometry": ("Geometry",),
-    "decomp.medial.facing": ("MidSurface", "mid_surface"),
-    "decomp.medial.result": (
+    "decomp.midsurfaces.facing": ("MidSurface", "mid_surface"),
+    "decomp.skeletons.model": (
         "Cell",
         "Certificate",
         "Junction",
@@ -103,16 +103,16 @@ _HOMES = {
         "Skeleton",
         "SkeletonLine",
     ),
-    "decomp.meshing": ("mesh",),
+    "decomp.ways.mesh": ("mesh",),
     "decomp.outside": ("with_outside",),
     "decomp.sites": ("Nearest",),
-    "decomp.tetra.check": ("Checked", "check"),
-    "decomp.tetra.child": ("MeshingError",),
-    "decomp.tetra.group": ("Group", "GroupKind"),
-    "decomp.tetra.mesh": ("TetMesh",),
-    "decomp.tetra.reading": ("read",),
-    "decomp.tetra.report": ("Report", "report"),
-    "decomp.ways": ("skeleton",),
+    "decomp.checking.check": ("Checked", "check"),
+    "decomp.meshing.backends.tetwild.child": ("MeshingError",),
+    "decomp.meshes.group": ("Group", "GroupKind"),
+    "decomp.meshes.model": ("TetMesh",),
+    "decomp.meshes.files.reading": ("read",),
+    "decomp.meshes.report": ("Report", "report"),
+    "decomp.ways.skeleton": ("skeleton",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

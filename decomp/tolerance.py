@@ -24,6 +24,8 @@ ON_LOCUS: Final = 1e-7
 """A point nearer to a reflexive locus is on it: what it touches is known to half the digits."""
 ONE_NODE: Final = 1e-7
 """Nodes nearer to each other, found along different seams, are one."""
+SINGULAR: Final = 1e-7
+"""Sine of the angle between two normals below which they count as parallel."""
 AT_END: Final = 1e-6
 """What is nearer to the end of a curve, which may be extrapolated, is at it."""
 

@@ -13,15 +13,15 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 import decomp
-from decomp.cells.surface import side_triangles
 from decomp.drawing.camera import ASLANT, fitted
 from decomp.drawing.colours import CATEGORIES, rgb
 from decomp.drawing.picture import FINER, HEIGHT, WIDTH, creases
 from decomp.drawing.picture import MARGIN as FREE
 from decomp.drawing.raster import Triangles, painted
-from decomp.medial.result import Skeleton
-from decomp.tetra.incidence import faces_of, row_keys
-from decomp.tetra.mesh import GroupKind, TetMesh
+from decomp.meshes.incidence import faces_of, row_keys
+from decomp.meshes.model import GroupKind, TetMesh
+from decomp.skeletons.cells.surface import side_triangles
+from decomp.skeletons.model import Skeleton
 from decomp.vectors import Array, Bools, Ints
 
 MODEL = Path(__file__).parents[1] / "meshes" / "blind_hole.geo"

@@ -20,8 +20,8 @@ import pyvista
 from PIL import Image
 
 from decomp.errors import GeometryError
-from decomp.medial.result import Skeleton
-from decomp.output.elements import KINDS, Elements, elements
+from decomp.skeletons.files.elements import KINDS, Elements, elements
+from decomp.skeletons.model import Skeleton
 
 SIZE = (1000, 750)
 VIEW = np.array([0.47, -0.74, 0.48])
@@ -124,7 +124,7 @@ def main() -> int:
     if options.dozen == (options.model is not None):
         parser.error("give a model file or --dozen")
 
-    from decomp.compute import skeleton
+    from decomp.skeletons.compute import skeleton
 
     if not options.dozen:
         draw(skeleton(options.model), options.output, options.wires)

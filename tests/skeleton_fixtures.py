@@ -9,11 +9,11 @@ import numpy as np
 
 import decomp
 from decomp.carriers import Carrier
-from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.evidence import Evidence
 from decomp.complex.model import Complex, Line, LineKind, Patch, PatchKind
 from decomp.curves.circle import Circle
-from decomp.medial.result import (
+from decomp.skeletons.cells.partition import face_cells, skeleton_cells
+from decomp.skeletons.certificate.evidence import Evidence
+from decomp.skeletons.model import (
     Certificate,
     Junction,
     Parity,

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.checking.check import check
 from decomp.errors import InputError
-from decomp.tetra.check import check
 from decomp.vectors import number, vector
-from decomp.ways import Method
+from decomp.ways.skeleton import Method
 
 BLOCK: Any = decomp.Block((0, 0, 0), (1, 1, 1), name="b")
 NAN = float("nan")

@@ -15,8 +15,8 @@ from decomp.attempts import Way, first_of, stage
 from decomp.cli.main import main
 from decomp.errors import EmptyRegionError, GeometryError, OverlapError, Try
 from decomp.located import located
-from decomp.medial.drawn_sheets import CrossingError
 from decomp.places import seen_from
+from decomp.skeletons.sheets.drawn_sheets import CrossingError
 
 BALLS = """algebraic3d
 solid one = sphere (0,0,0; 1);

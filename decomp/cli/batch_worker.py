@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from decomp.cli.ending import EndedError, endings, leave
-from decomp.tetra.lifeline import die_with_parent
+from decomp.meshing.backends.tetwild.lifeline import die_with_parent
 
 
 def main() -> int:
@@ -35,7 +35,7 @@ def main() -> int:
 def _meshed(given: dict[str, Any]) -> int:
     from decomp.cli.mesh import meshed, written
     from decomp.errors import DecompError
-    from decomp.tetra.report import as_json
+    from decomp.meshes.report import as_json
 
     paths = {"model": Path(given["model"]), "output": [Path(given["output"])]}
     options = argparse.Namespace(**{**given, **paths})

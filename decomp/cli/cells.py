@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 from decomp.cli.said import say
 
 if TYPE_CHECKING:
-    from decomp.medial.result import Skeleton
+    from decomp.skeletons.model import Skeleton
 
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
     from decomp.cli.computing import add_options
-    from decomp.output import CELL_FORMATS
+    from decomp.skeletons.files import CELL_FORMATS
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "cells",
@@ -51,7 +51,7 @@ def register(commands: Any) -> None:
 def run(options: argparse.Namespace) -> None:
     """Check the directory, compute, write, print."""
     from decomp.cli.computing import computed
-    from decomp.output.cells import check_directory, write_cells
+    from decomp.skeletons.files.cells import check_directory, write_cells
 
     check_directory(options.output, options.format, options.model)
     skeleton = computed(options)

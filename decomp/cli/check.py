@@ -14,7 +14,7 @@ from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
 
 if TYPE_CHECKING:
-    from decomp.tetra.check import Checked
+    from decomp.checking.check import Checked
 
 EPSILON, VOLUME_ERROR = 2e-3, 5e-3
 
@@ -66,10 +66,10 @@ def run(options: argparse.Namespace) -> None:
     Raises:
         DecompError: the mesh falls short, or something cannot be read or computed.
     """
+    from decomp.checking.check import check
     from decomp.cli.computing import reporting
     from decomp.formats import FORMATS
-    from decomp.surfaces import surfaces_by
-    from decomp.tetra.check import check
+    from decomp.ways.surfaces import surfaces_by
 
     if options.mesh.suffix.lower().removeprefix(".") in FORMATS:
         raise InputError(f"{options.mesh} is a model: give the model first, then its mesh")

@@ -34,11 +34,8 @@ def run(options: argparse.Namespace) -> None:
     """Print the script."""
     import shtab
 
-    from decomp.cli.main import parser
-
-    whole = parser()
-    _complete_files(whole)
-    print(shtab.complete(whole, options.shell))
+    _complete_files(options.whole)
+    print(shtab.complete(options.whole, options.shell))
 
 
 def _complete_files(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,7 @@ from decomp.cli.models import FILES, add_outside, model_of
 from decomp.plain import plain
 
 if TYPE_CHECKING:
-    from decomp.medial.result import RegionSkeleton, Skeleton
+    from decomp.skeletons.model import RegionSkeleton, Skeleton
 
 TOLERANCE = 5e-4
 LARGEST = 0.1
@@ -55,7 +55,7 @@ def computed(options: argparse.Namespace) -> Skeleton:
         DecompError: the model cannot be read, is no solid, or its skeleton cannot be certified.
     """
     from decomp.geometry import Geometry
-    from decomp.ways import skeleton
+    from decomp.ways.skeleton import skeleton
 
     with reporting(options.quiet) as report:
         report(f"reading {options.model.name}", 0.0)
@@ -67,7 +67,7 @@ def computed(options: argparse.Namespace) -> Skeleton:
 
 def method_text(region: RegionSkeleton) -> list[str]:
     """How a region's skeleton was found, and why it was not traced; nothing of one that was."""
-    from decomp.medial.result import Method
+    from decomp.skeletons.model import Method
 
     if region.method is Method.TRACED:
         return []

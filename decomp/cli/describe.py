@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from decomp.cli.said import say
 
 if TYPE_CHECKING:
-    from decomp.medial.result import RegionSkeleton, Skeleton
+    from decomp.skeletons.model import RegionSkeleton, Skeleton
 
 
 def register(commands: Any) -> None:
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> None:
     """Compute, print."""
     from decomp.cli.computing import computed
     from decomp.errors import InputError
-    from decomp.output.as_json import counted_from
+    from decomp.skeletons.files.as_json import counted_from
 
     if not 1 <= options.digits <= 17:
         raise InputError(f"--digits must be from 1 to 17, not {options.digits}")
@@ -62,7 +62,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _first_sheets(skeleton: Skeleton) -> list[int]:
-    from decomp.output.elements import first_sheets
+    from decomp.skeletons.files.elements import first_sheets
 
     return list(first_sheets(skeleton))
 
@@ -71,8 +71,8 @@ def sheet_rows(
     skeleton: Skeleton, region: RegionSkeleton, digits: int, first: int = 0
 ) -> list[dict[str, Any]]:
     """Each sheet of a region as JSON values; lengths in the model's units, angles in radians."""
-    from decomp.output.labels import site_labels
-    from decomp.output.surfaces import surface_values
+    from decomp.skeletons.files.labels import site_labels
+    from decomp.skeletons.files.surfaces import surface_values
 
     labels = site_labels(skeleton.sites)
     return [

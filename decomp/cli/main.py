@@ -15,7 +15,7 @@ from decomp.cli.parsing import Parser
 from decomp.cli.printed import ReaderGoneError, complain, printing
 from decomp.errors import DecompError, GeometryError
 from decomp.kernels.news import told_of_compiling
-from decomp.tetra.workplace import sweep
+from decomp.meshing.backends.tetwild.workplace import sweep
 
 EXAMPLES = """\
 examples:
@@ -43,6 +43,7 @@ def parser() -> Parser:
         epilog=EXAMPLES,
     )
     result.add_argument("--version", action="store_true", help="print the version and exit")
+    result.set_defaults(whole=result)
     commands = result.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     for module in COMMANDS:
         module.register(commands)

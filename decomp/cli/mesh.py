@@ -16,8 +16,8 @@ from decomp.cli.said import say
 from decomp.cli.sizes import length_at, named_length
 
 if TYPE_CHECKING:
-    from decomp.tetra.mesh import TetMesh
-    from decomp.tetra.report import Report
+    from decomp.meshes.model import TetMesh
+    from decomp.meshes.report import Report
 
 EXAMPLES = """\
 examples:
@@ -37,7 +37,7 @@ examples:
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
-    from decomp.output.mesh import SUFFIXES
+    from decomp.meshes.files import SUFFIXES
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "mesh",
@@ -217,9 +217,9 @@ def run(options: argparse.Namespace) -> None:
     from decomp.files.suffixes import known_suffix
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
-    from decomp.output.mesh import suffix_of
-    from decomp.tetra.fields import checked_fields
-    from decomp.tetra.report import as_json, as_text
+    from decomp.meshes.fields import checked_fields
+    from decomp.meshes.files import suffix_of
+    from decomp.meshes.report import as_json, as_text
 
     options.groups = all_groups(options.groups, options.group_file)
     several = len(options.models) > 1 or options.jobs or options.format
@@ -279,7 +279,7 @@ def _default(model: Path) -> Path:
 
 def written(mesh: TetMesh, options: argparse.Namespace, outputs: Sequence[Path]) -> None:
     """Write a mesh to files as the options say."""
-    from decomp.output.mesh import write
+    from decomp.meshes.files import write
 
     for path in outputs:
         write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
@@ -300,8 +300,8 @@ def meshed(
     from decomp.cli.computing import reporting
     from decomp.cli.stages import Stages
     from decomp.geometry import Geometry
-    from decomp.meshing import mesh
-    from decomp.tetra.report import report
+    from decomp.meshes.report import report
+    from decomp.ways.mesh import mesh
 
     with nullcontext(told) if told else reporting(options.quiet) as tell:
         stages = Stages(tell)

@@ -12,14 +12,14 @@ from decomp.cli.said import say
 from decomp.errors import InputError
 
 if TYPE_CHECKING:
-    from decomp.medial.facing import MidSurface
-    from decomp.medial.result import Certificate, RegionSkeleton, Skeleton
+    from decomp.midsurfaces.facing import MidSurface
+    from decomp.skeletons.model import Certificate, RegionSkeleton, Skeleton
 
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
     from decomp.cli.computing import add_options
-    from decomp.output import SUFFIXES
+    from decomp.skeletons.files import SUFFIXES
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "skeleton",
@@ -51,7 +51,7 @@ def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute, write, print."""
     from decomp.cli.computing import computed
     from decomp.files.targets import check_outputs
-    from decomp.output import suffix_of, write
+    from decomp.skeletons.files import suffix_of, write
 
     if options.json and are_streams(options.output):
         raise InputError("--json prints to stdout, where -o - writes the skeleton: leave one away")
@@ -65,7 +65,7 @@ def run(options: argparse.Namespace) -> None:
     for path in options.output:
         write(skeleton, path, boundary=options.boundary, trims=options.trims)
     if options.json:
-        from decomp.output.as_json import contents
+        from decomp.skeletons.files.as_json import contents
 
         print(json.dumps(contents(skeleton), indent=1))
     elif not options.quiet:
@@ -77,8 +77,8 @@ def _run_facing(options: argparse.Namespace) -> None:
     """The same for the mid-surface."""
     from decomp.cli.computing import computed
     from decomp.files.targets import check_outputs
-    from decomp.medial.facing import mid_surface
-    from decomp.output.mid_surface import suffix_of
+    from decomp.midsurfaces.facing import mid_surface
+    from decomp.midsurfaces.files import suffix_of
 
     for name in ("boundary", "trims", "json"):
         if getattr(options, name):
@@ -145,7 +145,7 @@ def _region_text(region: RegionSkeleton, tolerance: float, figures: bool) -> lis
 
 
 def _verdict(certificate: Certificate, tolerance: float) -> str:
-    from decomp.certificate.certificate import shortcomings
+    from decomp.skeletons.certificate.certificate import shortcomings
 
     short = shortcomings(certificate, tolerance)
     if short:
@@ -157,7 +157,7 @@ def _verdict(certificate: Certificate, tolerance: float) -> str:
 
 
 def _figures(certificate: Certificate, tolerance: float) -> list[str]:
-    from decomp.certificate.certificate import limits, shortcomings
+    from decomp.skeletons.certificate.certificate import limits, shortcomings
 
     short = shortcomings(certificate, tolerance)
     most = limits(tolerance)

@@ -37,9 +37,9 @@ def _use_all(tell: Any) -> None:
     """Skeletons and a mesh of parts with every kind of carrier, edge and query; a picture of it."""
     from decomp.csg.primitives import Block, Cone, Cylinder, Sphere, Torus
     from decomp.geometry import Geometry
-    from decomp.meshing import mesh
-    from decomp.output.mesh import encoded
-    from decomp.ways import skeleton
+    from decomp.meshes.files import encoded
+    from decomp.ways.mesh import mesh
+    from decomp.ways.skeleton import skeleton
 
     block = Block((0, 0, 0), (8, 8, 4))
     bore = Cylinder((2, 2, -1), (2, 2, 5), 1)

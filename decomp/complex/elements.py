@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.carriers import Carrier
+from decomp.carriers.compiled_carriers import carrier_table
+from decomp.carriers.on_carriers import normals_at, projected
 from decomp.curves.base import Curve
-from decomp.kernels.carriers import carrier_table
-from decomp.kernels.on_carriers import normals_at, projected
 from decomp.vectors import Array, Bools, Ints
 
 

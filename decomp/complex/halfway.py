@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.complex.refine_elements import Elements
+from decomp.complex.many_elements import Elements
 from decomp.vectors import Array, Ints, dot, norm
 
 STEP = 0.05

@@ -7,8 +7,6 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.vectors import Array, cross, norm
 
-SINGULAR = 1e-7
-"""Sine of the angle between two normals below which they count as parallel."""
 EXACT = 1e-14
 """Steps smaller than this part of the greatest coordinate are the last."""
 

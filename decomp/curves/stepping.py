@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import lru_cache
 
 from decomp.carriers import Carrier
-from decomp.curves.newton import SINGULAR
-from decomp.kernels.carriers import CarrierTable, carrier_table, normal, signed_distance
+from decomp.carriers.compiled_carriers import CarrierTable, carrier_table, normal, signed_distance
 from decomp.kernels.compiled import scalar
+from decomp.tolerance import SINGULAR
 from decomp.vectors import Array
 
 

@@ -17,7 +17,8 @@ import numpy as np
 
 from decomp.carriers import Carrier, Cone, Cylinder, Plane
 from decomp.curves.base import Curve
-from decomp.curves.newton import SINGULAR, cross_direction, onto_pair
+from decomp.curves.newton import cross_direction, onto_pair
+from decomp.tolerance import SINGULAR
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 STRAYED = 0.2

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from decomp.cells.surface import used_points
 from decomp.drawing.scene import Body, Field, Part, Scene
+from decomp.meshes.files.finest import finest
+from decomp.meshes.files.msh_reader import read_msh
+from decomp.meshes.incidence import faces_of, row_keys
+from decomp.meshes.model import GroupKind, TetMesh
+from decomp.meshes.quality import dihedral_angles, radius_ratios
 from decomp.plain import plain
-from decomp.tetra.finest import finest
-from decomp.tetra.incidence import faces_of, row_keys
-from decomp.tetra.mesh import GroupKind, TetMesh
-from decomp.tetra.msh_reader import read_msh
-from decomp.tetra.quality import dihedral_angles, radius_ratios
+from decomp.skeletons.cells.surface import used_points
 from decomp.vectors import Array, Bools, Ints
 
 QUALITY, ANGLE = "quality (3 r / R)", "least dihedral angle"

@@ -17,7 +17,7 @@ from decomp.drawing.of_mesh import hull
 from decomp.drawing.raster import Triangles, joined, painted
 from decomp.drawing.scene import Body, Scene
 from decomp.errors import InputError
-from decomp.tetra.incidence import row_keys
+from decomp.meshes.incidence import row_keys
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 WIDTH, HEIGHT, FINER = 1200, 900, 2

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.drawing.camera import Projection
-from decomp.tracing.compiled import scalar
+from decomp.kernels.compiled import scalar
 from decomp.vectors import Array, Bools, cross, norm
 
 LIGHT = np.array([0.2, -0.6, 0.77])

@@ -19,6 +19,9 @@ from numba import njit, types
 from decomp.kernels.cache import KernelCache
 
 F = TypeVar("F", bound=Callable[..., Any])
+PACKAGE = Path(__file__).parent.parent
+FOLDERS = ("kernels", "carriers", "sites", "skeletons/balls", "skeletons/seams/steps")
+"""Folders with kernels that are called from other folders, each from those after it."""
 
 
 def kernel(function: F) -> F:
@@ -62,7 +65,7 @@ def _compiled(function: F, **options: bool) -> F:
     cache = _cache(function)
     if cache is not None:
         compiled._cache = cache
-        restamp(compiled, Path(function.__code__.co_filename).parent, Path(__file__).parent)
+        _restamp(compiled)
     return cast(F, _without_collecting(_for_plain_types(compiled)))
 
 
@@ -124,19 +127,26 @@ def _only_from_kernels(compiled: F) -> F:
     return compiled
 
 
-def restamp(compiled: Any, *folders: Path) -> None:
-    """Have a cached kernel renewed when its own file or any file of some folders changes.
+def _restamp(compiled: Any) -> None:
+    """Have a cached kernel renewed when its own file or one that it may call a kernel of changes.
 
     Numba by itself renews it when its own file changes, but not when a kernel changes that it
     calls in another file.
     """
-    own = Path(getattr(compiled, "py_func", compiled).__code__.co_filename).stat()
-    stamps = [(own.st_mtime, own.st_size), *(_stamp(folder) for folder in folders)]
+    own = Path(getattr(compiled, "py_func", compiled).__code__.co_filename)
+    changed, size = own.stat().st_mtime, own.stat().st_size
+    stamps = [(changed, size), *(_stamp(folder) for folder in _called_from(own.parent))]
     with suppress(AttributeError):
         compiled._cache._cache_file._source_stamp = (
             max(changed for changed, _ in stamps),
             sum(size for _, size in stamps),
         )
+
+
+def _called_from(folder: Path) -> list[Path]:
+    """The folders whose kernels those of a folder may call: its own, and those before it."""
+    shared = [PACKAGE / name for name in FOLDERS]
+    return shared[: shared.index(folder) + 1] if folder in shared else [folder, *shared]
 
 
 @cache

@@ -15,14 +15,14 @@ from decomp.attempts import stage
 from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.medial.assembly import RegionAssembler, RegionParts
-from decomp.medial.drawn_sheets import CrossingError
-from decomp.medial.region_curves import RegionCurves
-from decomp.medial.result import TrimSurface
-from decomp.medial.trim_maker import BoundaryVertices
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.interior import Interior
-from decomp.traced_region import TracedRegion
+from decomp.skeletons.assembly import RegionAssembler, RegionParts
+from decomp.skeletons.curves.region_curves import RegionCurves
+from decomp.skeletons.model import TrimSurface
+from decomp.skeletons.sheets.drawn_sheets import CrossingError
+from decomp.skeletons.sheets.trim_maker import BoundaryVertices
+from decomp.skeletons.traced_region import TracedRegion
 from decomp.vectors import Array, Ints, norm
 
 ON = 1e-9

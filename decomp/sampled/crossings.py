@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.queries import RegionQueries
 from decomp.vectors import Array, Ints
 
 HALVINGS = 12

@@ -22,7 +22,7 @@ from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
 from decomp.sampled.normals import LOOSE
 from decomp.sampled.placing import Placer
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
 NEARER = 1e-10

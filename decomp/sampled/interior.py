@@ -11,26 +11,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.cells.surface import volume
-from decomp.complex.boundary import BoundaryMesh, boundary_mesh
-from decomp.complex.refine import refined
-from decomp.complex.refine_elements import Elements
+from decomp.complex.boundary.boundary import BoundaryMesh, boundary_mesh
+from decomp.complex.many_elements import Elements
+from decomp.complex.refining.refine import refined
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.medial.result import Cell
-from decomp.tetra.cells import cell_map
-from decomp.tetra.child import Settings, TimeLimit
-from decomp.tetra.chords import chords
-from decomp.tetra.features import usual_epsilon
-from decomp.tetra.layout import Layout, layout
-from decomp.tetra.preparation import Prepared
-from decomp.tetra.shortening import lengths_asked
-from decomp.tetra.sizes import Wanted
-from decomp.tetra.soup import soup
-from decomp.tetra.strayed import strayed
-from decomp.tetra.surface import MeshSurface, RegionSurface
-from decomp.tetra.tetrahedra import filled
-from decomp.tetra.wishes import UNKNOWN, joined
+from decomp.meshing.backends.tetwild.child import Settings, TimeLimit
+from decomp.meshing.backends.tetwild.soup import soup
+from decomp.meshing.exact.strayed import strayed
+from decomp.meshing.preparation import Prepared
+from decomp.meshing.repairs.shortening import lengths_asked
+from decomp.meshing.sizing.chords import chords
+from decomp.meshing.sizing.features import usual_epsilon
+from decomp.meshing.sizing.sizes import Wanted
+from decomp.meshing.sizing.wishes import UNKNOWN, joined
+from decomp.meshing.surface.cells import cell_map
+from decomp.meshing.surface.layout import Layout, layout
+from decomp.meshing.surface.surface import MeshSurface, RegionSurface
+from decomp.meshing.tetrahedra import filled
+from decomp.skeletons.cells.surface import volume
+from decomp.skeletons.model import Cell
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints
 

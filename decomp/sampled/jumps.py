@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.complex.model import Complex
-from decomp.medial.result import RegionSkeleton
-from decomp.medial.sheet_surface import SheetSurface
 from decomp.places import place
 from decomp.sites.site import Site
+from decomp.skeletons.model import RegionSkeleton
+from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.vectors import Array
 
 LEAST = 1e-3

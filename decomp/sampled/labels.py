@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Edge
-from decomp.medial.incidence import Incidence
 from decomp.sampled.bisecting import Bisected
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.curves.incidence import Incidence
 from decomp.vectors import Array, Bools, Ints, norm
 
 ON = 1e-8

@@ -14,10 +14,10 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.medial.incidence import Incidence
-from decomp.medial.reflexive import ReflexivePart
 from decomp.sampled.extracted import SIDES, Extracted
-from decomp.tracing.fields import site_fields
+from decomp.skeletons.balls.fields import site_fields
+from decomp.skeletons.curves.incidence import Incidence
+from decomp.skeletons.curves.reflexive import ReflexivePart
 from decomp.vectors import Array, Ints, norm
 
 SAME = 1e-9

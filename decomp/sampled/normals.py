@@ -13,10 +13,10 @@ from itertools import combinations
 import numpy as np
 
 from decomp.boundary.topology import Convexity
-from decomp.medial.incidence import Incidence
 from decomp.sites.site import SiteKind, faces_at
-from decomp.tracing.fields import edge_foot
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.fields import edge_foot
+from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.curves.incidence import Incidence
 from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
 DELTA = 1e-7

@@ -14,12 +14,12 @@ from scipy.sparse.csgraph import connected_components  # type: ignore[import-unt
 
 from decomp.complex.model import Patch, PatchKind
 from decomp.errors import GeometryError
-from decomp.medial.incidence import Incidence
-from decomp.medial.result import TrimSurface
-from decomp.medial.sheet_surface import SheetSurface
 from decomp.sampled.elements import NormalsSurface
 from decomp.sampled.extracted import Extracted
 from decomp.sampled.placing import Placer
+from decomp.skeletons.curves.incidence import Incidence
+from decomp.skeletons.model import TrimSurface
+from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.vectors import Array, Ints
 
 SIDES = np.array([[0, 1], [1, 2], [2, 0]])

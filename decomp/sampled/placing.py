@@ -12,12 +12,12 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from decomp.medial.incidence import Incidence
 from decomp.sampled.normals import TIGHT, Normals
 from decomp.sites.site import SiteKind
-from decomp.tracing.fields import site_fields
-from decomp.tracing.loci import on_locus
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.fields import site_fields
+from decomp.skeletons.balls.loci import on_locus
+from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.curves.incidence import Incidence
 from decomp.vectors import Array, Bools, Ints, norm
 
 STEPS = 30

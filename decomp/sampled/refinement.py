@@ -17,7 +17,7 @@ from decomp.sampled.bisecting import EDGES, Bisected
 from decomp.sampled.crossings import crossings
 from decomp.sampled.labels import Labeller, Labels
 from decomp.sampled.placing import Placer
-from decomp.tracing.queries import RegionQueries
+from decomp.skeletons.balls.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
 OF_RADIUS = 0.7

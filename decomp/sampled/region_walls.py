@@ -21,7 +21,7 @@ from decomp.sampled.interior import Interior
 from decomp.sampled.labels import Labeller
 from decomp.sampled.refinement import Refiner
 from decomp.sampled.whole import RegionTools
-from decomp.tracing.queries import region_queries
+from decomp.skeletons.balls.queries import region_queries
 from decomp.vectors import Array, Ints, norm
 
 AGAIN, PATIENCE = 8, 3

@@ -20,15 +20,11 @@ from functools import partial
 import numpy as np
 
 from decomp.attempts import first_cause, stage
-from decomp.certificate.certificate import VOLUME, Certified, explained, shortcomings
-from decomp.certificate.shortcoming import refusal
 from decomp.complex.model import Complex
-from decomp.complex.refine import refined
+from decomp.complex.refining.refine import refined
 from decomp.errors import GeometryError
-from decomp.fineness import fine_enough, finer
 from decomp.geometry import Geometry
-from decomp.medial.region_curves import RegionCurves
-from decomp.medial.result import Method, RegionSkeleton, Skeleton
+from decomp.meshing.backends.tetwild.child import MeshingError, TimeLimit
 from decomp.sampled.beside import TetrahedraBoundary, with_traced
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.drawing import smoothly_drawn
@@ -36,9 +32,13 @@ from decomp.sampled.interior import Interior, interior
 from decomp.sampled.jumps import without_jump
 from decomp.sampled.region_walls import region_walls
 from decomp.sampled.whole import Described, Drawn, RegionTools, tools_of
-from decomp.tetra.cells import site_owners
-from decomp.tetra.child import MeshingError, TimeLimit
-from decomp.traced_region import TracedRegion
+from decomp.skeletons.cells.owners import site_owners
+from decomp.skeletons.certificate.certificate import VOLUME, Certified, explained, shortcomings
+from decomp.skeletons.certificate.shortcoming import refusal
+from decomp.skeletons.curves.region_curves import RegionCurves
+from decomp.skeletons.fineness import fine_enough, finer
+from decomp.skeletons.model import Method, RegionSkeleton, Skeleton
+from decomp.skeletons.traced_region import TracedRegion
 
 FLOORS = (12.0, 18.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter

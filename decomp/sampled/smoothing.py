@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from decomp.complex.errors_of import triangle_errors
+from decomp.complex.many_elements import Elements
 from decomp.complex.model import Complex, LineKind
-from decomp.complex.refine_elements import Elements
-from decomp.complex.refine_lenient import LenientElements
+from decomp.complex.refining.errors_of import triangle_errors
+from decomp.complex.refining.lenient import LenientElements
 from decomp.vectors import Array, Bools, Ints
 
 ALONG = 12

@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.complex.model import Complex
-from decomp.complex.refine import refined
+from decomp.complex.refining.refine import refined
 from decomp.geometry import Geometry
-from decomp.medial.result import TrimSurface
-from decomp.medial.trim_maker import owners
+from decomp.meshing.surface.surface import MeshSurface, RegionSurface, cells_of, checked, coarsest
 from decomp.sampled.beside import with_traced
 from decomp.sampled.patches import numbered_trims
 from decomp.sampled.sampling import SHARE, Sampled
 from decomp.sampled.whole import without_trims
-from decomp.tetra.surface import MeshSurface, RegionSurface, cells_of, checked, coarsest
+from decomp.skeletons.model import TrimSurface
+from decomp.skeletons.sheets.trim_maker import owners
 from decomp.vectors import Ints
 
 

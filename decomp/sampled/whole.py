@@ -7,25 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from decomp.cells.partition import face_cells, skeleton_cells
-from decomp.certificate.certificate import Certified
-from decomp.certificate.evidence import Evidence
-from decomp.certified_region import certified_region
 from decomp.complex.model import Complex, CurveElement, Line, LineKind, Patch
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.medial.curve_elements import LocusCurve
-from decomp.medial.incidence import Incidence
-from decomp.medial.reflexive import ReflexivePart, reflexive_parts
-from decomp.medial.result import (
-    Junction,
-    Method,
-    Parity,
-    Reflexive,
-    RegionSkeleton,
-    Sheet,
-    SkeletonLine,
-)
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.elements import PlacedCurve
 from decomp.sampled.extracted import Extracted
@@ -35,8 +19,24 @@ from decomp.sampled.loci import Run, runs, welded
 from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
-from decomp.traced_region import TracedRegion
-from decomp.tracing.queries import region_queries
+from decomp.skeletons.balls.queries import region_queries
+from decomp.skeletons.cells.partition import face_cells, skeleton_cells
+from decomp.skeletons.certificate.certificate import Certified
+from decomp.skeletons.certificate.evidence import Evidence
+from decomp.skeletons.certified_region import certified_region
+from decomp.skeletons.curves.curve_elements import LocusCurve
+from decomp.skeletons.curves.incidence import Incidence
+from decomp.skeletons.curves.reflexive import ReflexivePart, reflexive_parts
+from decomp.skeletons.model import (
+    Junction,
+    Method,
+    Parity,
+    Reflexive,
+    RegionSkeleton,
+    Sheet,
+    SkeletonLine,
+)
+from decomp.skeletons.traced_region import TracedRegion
 from decomp.vectors import Array, Ints, cross, norm
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import atan2, cos, inf, pi, sin, sqrt
 
-from decomp.kernels.carriers import TINY, CarrierTable, Triple, normal, signed_distance
+from decomp.carriers.compiled_carriers import TINY, CarrierTable, Triple, normal, signed_distance
 from decomp.kernels.compiled import inlined, inner, scalar
 from decomp.vectors import Array
 

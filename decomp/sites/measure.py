@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import NamedTuple
 
-from decomp.kernels.carriers import foot, signed_distance
+from decomp.carriers.compiled_carriers import foot, signed_distance
 from decomp.kernels.compiled import inlined, inner
 from decomp.sites.edge_feet import ARC, circle_distance
 from decomp.sites.occupancy import OccupancyTree

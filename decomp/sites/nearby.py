@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from math import cos, pi, sin, sqrt
 
-from decomp.kernels.carriers import (
+from decomp.carriers.compiled_carriers import (
     CONE,
     CarrierTable,
     Triple,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from decomp.carriers.compiled_carriers import CarrierTable, carrier_table, signed_distance
 from decomp.csg.halfspaces import HalfSpaceForm
-from decomp.kernels.carriers import CarrierTable, carrier_table, signed_distance
 from decomp.kernels.compiled import inlined, inner, scalar
 from decomp.kernels.records import Record
 from decomp.sites.nearby import MOST_TURNS, ROOM

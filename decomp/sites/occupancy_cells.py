@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from decomp.kernels.carriers import CarrierTable, signed_distance
+from decomp.carriers.compiled_carriers import CarrierTable, signed_distance
 from decomp.kernels.compiled import inner, inner_kernel, kernel
 from decomp.sites.growing import counted
 from decomp.sites.programs import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.kernels.carriers import Triple, signed_distance
+from decomp.carriers.compiled_carriers import Triple, signed_distance
 from decomp.kernels.compiled import inlined, inner
 from decomp.sites.nearby import in_general_position, points_nearby
 from decomp.sites.occupancy import OccupancyTree

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import asin, inf, sqrt
 
-from decomp.kernels.carriers import CarrierTable, foot, foot_spread, signed_distance
+from decomp.carriers.compiled_carriers import CarrierTable, foot, foot_spread, signed_distance
 from decomp.kernels.compiled import inner
 from decomp.sites.edge_feet import LINE, SAMPLED, arc_foot, chord_foot, line_foot, sampled_foot
 from decomp.sites.site_boxes import box_distance

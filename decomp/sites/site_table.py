@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Convexity, Edge, RegionBoundary
+from decomp.carriers.compiled_carriers import CarrierTable
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.kernels.carriers import CarrierTable
 from decomp.kernels.records import Record
 from decomp.sites.edge_feet import ARC, LINE, SAMPLED, chord_gap
 from decomp.sites.site_boxes import edge_box, face_box

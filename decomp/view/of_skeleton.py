@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from decomp.cells.surface import side_triangles
 from decomp.drawing.scene import Field, Part, Scene
 from decomp.errors import InputError
 from decomp.optional import needed
 from decomp.plain import plain
+from decomp.skeletons.cells.surface import side_triangles
 from decomp.vectors import Array
 
 if TYPE_CHECKING:
-    from decomp.medial.result import Skeleton
+    from decomp.skeletons.model import Skeleton
 
 
 def scene_of(skeleton: Skeleton) -> Scene:
@@ -26,7 +26,7 @@ def scene_of(skeleton: Skeleton) -> Scene:
 
 
 def _parts(skeleton: Skeleton) -> Iterator[Part]:
-    from decomp.medial.sheet_kinds import sheet_kind
+    from decomp.skeletons.sheet_kinds import sheet_kind
 
     mesh, number = skeleton.complex, 0
     for region in skeleton.regions:
@@ -51,7 +51,7 @@ def read(path: Path) -> Scene:
         InputError: it holds something else, or pyvista is not installed.
     """
     pyvista = needed("pyvista", "pyvista", f"{path}: reading .vtu files")
-    from decomp.output.elements import SURFACES
+    from decomp.skeletons.files.elements import SURFACES
 
     grid = pyvista.read(path)
     if "sheet" not in grid.cell_data or "radius" not in grid.point_data:

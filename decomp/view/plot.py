@@ -14,8 +14,8 @@ from decomp.vectors import Array, Ints
 
 if TYPE_CHECKING:
     from decomp.geometry import Geometry
-    from decomp.medial.result import Skeleton
-    from decomp.tetra.mesh import TetMesh
+    from decomp.meshes.model import TetMesh
+    from decomp.skeletons.model import Skeleton
 
 FINE = 2e-3
 """How far triangles may be off faces, in diagonals of the model."""
@@ -41,7 +41,7 @@ def plot_mesh(mesh: TetMesh, scalars: str, options: Mapping[str, Any]) -> Any:
 
 def plot_geometry(geometry: Geometry, options: Mapping[str, Any]) -> Any:
     """Show the faces of all regions, each in a colour."""
-    from decomp.complex.boundary import boundary_mesh
+    from decomp.complex.boundary.boundary import boundary_mesh
 
     made = boundary_mesh(geometry.local, FINE * geometry.diagonal).complex
     surface = _surface(made.points + geometry.offset, [patch.triangles for patch in made.patches])

@@ -12,7 +12,7 @@ from decomp.places import FAR
 from decomp.vectors import norm
 
 if TYPE_CHECKING:
-    from decomp.medial.result import Skeleton
+    from decomp.skeletons.model import Skeleton
 
 MODELS, MESHES, SKELETONS = (".geo", ".csg", ".json"), (".msh",), (".vtu",)
 

@@ -13,11 +13,11 @@ from html import escape
 from importlib.resources import files
 
 from decomp.drawing import of_mesh, picture
-from decomp.output.mesh.picture import LOOK
-from decomp.tetra.edge_lengths import EdgeLengths
-from decomp.tetra.mesh import TetMesh
-from decomp.tetra.quality import dihedral_angles, radius_ratios
-from decomp.tetra.report import Report
+from decomp.drawing.mesh_picture import LOOK
+from decomp.meshes.edge_lengths import EdgeLengths
+from decomp.meshes.model import TetMesh
+from decomp.meshes.quality import dihedral_angles, radius_ratios
+from decomp.meshes.report import Report
 from decomp.view import page
 from decomp.view.histogram import histogram
 from decomp.view.reading import brought_near

@@ -9,13 +9,13 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from decomp.complex.boundary import BoundaryMesh, boundary_mesh, boundary_patches
-from decomp.complex.boundary_pieces import boundary_pieces
-from decomp.complex.boundary_samples import numbered, piece_samples, sample_pieces
+from decomp.complex.boundary.boundary import BoundaryMesh, boundary_mesh, boundary_patches
+from decomp.complex.boundary.boundary_pieces import boundary_pieces
+from decomp.complex.boundary.boundary_samples import numbered, piece_samples, sample_pieces
 from decomp.complex.elements import CarrierSurface
-from decomp.complex.errors_of import flipped
 from decomp.complex.model import PatchKind
-from decomp.complex.refine import refine
+from decomp.complex.refining.errors_of import flipped
+from decomp.complex.refining.refine import refine
 from decomp.csg.primitives import Block, Cone, Cylinder, HalfSpace, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry

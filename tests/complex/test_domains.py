@@ -10,9 +10,9 @@ import pytest
 
 from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.carriers import Sphere
-from decomp.complex.domain_edges import EdgeDomain, EndKind
-from decomp.complex.domain_vertices import VertexDomain, reaches_into
-from decomp.complex.domains import Domain, FaceDomain, domain_of
+from decomp.complex.footprints.domain_edges import EdgeDomain, EndKind
+from decomp.complex.footprints.domain_vertices import VertexDomain, reaches_into
+from decomp.complex.footprints.domains import Domain, FaceDomain, domain_of
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.sites.site import Site, SiteKind

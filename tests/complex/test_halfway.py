@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from decomp.complex.halfway import MIDDLE, halfway
+from decomp.complex.many_elements import Elements
 from decomp.complex.model import Complex, Patch, PatchKind
-from decomp.complex.refine_elements import Elements
 from decomp.vectors import Array, Ints, norm
 
 TURN = np.radians([170.0, 100.0, 20.0])

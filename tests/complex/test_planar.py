@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from decomp.complex.planar import (
+from decomp.complex.plane.planar import (
     PLANE,
     Period,
     SparseError,

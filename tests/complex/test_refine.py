@@ -12,11 +12,11 @@ import pytest
 
 from decomp import Geometry
 from decomp.carriers import Plane
-from decomp.complex.boundary import boundary_mesh
-from decomp.complex.errors_of import chord_error, flipped
+from decomp.complex.boundary.boundary import boundary_mesh
 from decomp.complex.model import Complex
-from decomp.complex.refine import GROWING, _check_growth, refine, refined
-from decomp.complex.refine_mesh import Mesh
+from decomp.complex.refining.changing_mesh import Mesh
+from decomp.complex.refining.errors_of import chord_error, flipped
+from decomp.complex.refining.refine import GROWING, _check_growth, refine, refined
 from decomp.errors import GeometryError
 from tests.complex import shapes
 from tests.solids import SOLIDS

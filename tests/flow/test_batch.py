@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from decomp.checking.check import check
 from decomp.cli.main import INTERRUPTED, main
-from decomp.tetra.check import check
 
 BOX = "algebraic3d\nsolid p = orthobrick (0,0,0; 1,1,{height});\ntlo p;\n"
 BAD = "algebraic3d\nsolid p = ellipsoid (0,0,0; 1,0,0; 0,1,0; 0,0,2);\ntlo p;\n"

@@ -32,7 +32,7 @@ ELSEWHERE = {
     "commands.md": "tests/flow/test_docs.py",
     "examples/README.md": "tests/flow/test_examples.py",
     "limits.md": "tests/flow/test_newcomers.py",
-    "solvers.md": "tests/mesh_output/test_solvers.py",
+    "solvers.md": "tests/meshes/test_solvers.py",
 }
 """Pages with blocks that are seen to by tests of their own."""
 

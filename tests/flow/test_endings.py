@@ -128,7 +128,7 @@ def test_a_second_signal_ends_at_once(place: Path) -> None:
     program = """
 import os, signal, sys
 from decomp.cli.ending import endings
-from decomp.tetra.workplace import workplace
+from decomp.meshing.backends.tetwild.workplace import workplace
 with endings(), workplace():
     try:
         os.kill(os.getpid(), signal.SIGTERM)

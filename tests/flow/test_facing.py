@@ -19,8 +19,8 @@ from scipy.integrate import quad
 import decomp
 from decomp.cli.main import main
 from decomp.errors import InputError
-from tests.skeleton.computed import skeleton_of, source_of
 from tests.skeleton_fixtures import block
+from tests.skeletons.computed import skeleton_of, source_of
 
 HALF, RADIUS, DEPTH = 1.5, 0.5, 6.0
 

@@ -16,8 +16,8 @@ import trimesh
 import decomp
 from decomp.cli.main import main
 from decomp.errors import InputError
-from decomp.output import stl
-from decomp.tetra.msh_reader import read_msh
+from decomp.meshes.files.msh_reader import read_msh
+from decomp.skeletons.files import stl
 from decomp.view.reading import scene_of
 
 MOVE = np.array([-1e6, 2e6, 0.1])

@@ -13,8 +13,8 @@ import pyvista
 import decomp
 from decomp.cli.main import main
 from decomp.errors import InputError
-from decomp.tetra.fields import FIELDS
-from tests.mesh_output.opened import opened
+from decomp.meshes.fields import FIELDS
+from tests.meshes.opened import opened
 
 OUTER, INNER, LENGTH = 2.0, 1.5, 3.0
 

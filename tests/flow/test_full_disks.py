@@ -12,7 +12,7 @@ import pytest
 
 from decomp.cli.main import main
 from decomp.errors import FileError
-from decomp.tetra.child import Settings, tetrahedralized
+from decomp.meshing.backends.tetwild.child import Settings, tetrahedralized
 from tests.files.small_disk import small_disk
 
 MODEL = str(Path(__file__).parent.parent.parent / "meshes" / "flange.geo")

@@ -13,12 +13,12 @@ from decomp.cli.main import main
 from decomp.csg.primitives import Block
 from decomp.errors import DecompError, InputError
 from decomp.geometry import Geometry
-from decomp.meshing import mesh
-from decomp.tetra import memory
-from decomp.tetra.expected import least_tets
-from decomp.tetra.sizes import Wanted, region_sizes
+from decomp.meshing.sizing import memory
+from decomp.meshing.sizing.expected import least_tets
+from decomp.meshing.sizing.sizes import Wanted, region_sizes
+from decomp.ways.mesh import mesh
 from tests import pages
-from tests.mesh_output.shapes import bar, cube
+from tests.meshes.shapes import bar, cube
 
 PAGE = (Path(__file__).parent.parent.parent / "docs" / "limits.md").read_text()
 GEO = "algebraic3d\n"

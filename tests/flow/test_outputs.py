@@ -14,7 +14,7 @@ import decomp
 import decomp.geometry
 from decomp.cli.main import main
 from decomp.errors import FileError, InputError
-from tests.mesh_output.shapes import bar
+from tests.meshes.shapes import bar
 from tests.skeleton_fixtures import block
 
 TEXT = "algebraic3d\nsolid p = orthobrick (0,0,0; 1,1,1);\ntlo p;\n"
@@ -161,7 +161,7 @@ def test_what_is_made_of_models_remembers_it_too(tmp_path: Path) -> None:
     assert {each.source for each in (skeleton, surface, mesh)} == {path}
     for suffix in (".vtu", ".msh", ".png"):
         os.link(path, path.with_suffix(suffix))
-    from decomp.output import write
+    from decomp.skeletons.files import write
 
     for refused in (
         lambda: write(skeleton, path.with_suffix(".vtu")),
@@ -179,7 +179,7 @@ def test_cells_are_written_all_or_none(tmp_path: Path) -> None:
     """One that is the model's file, or read-only, is told before the first is written."""
     from dataclasses import replace
 
-    from decomp.output.cells import write_cells
+    from decomp.skeletons.files.cells import write_cells
 
     names = [path.name for path in write_cells(block().skeleton, tmp_path / "first")]
     model = tmp_path / "model.geo"

@@ -13,12 +13,12 @@ import pytest
 
 from decomp.cli.main import main
 from decomp.csg.model import Ignored
-from decomp.tetra.report import report
+from decomp.meshes.report import report
 from decomp.view import report_page
 from decomp.view.histogram import HIGH, histogram
 from decomp.view.table import Figure, Link, table
 from tests import browser as browsers
-from tests.mesh_output.shapes import bar
+from tests.meshes.shapes import bar
 
 EXACT = {"left": 1.0, "right": 1.0}
 

@@ -15,11 +15,11 @@ from decomp.drawing import of_mesh
 from decomp.drawing.colouring import colouring
 from decomp.drawing.colours import CATEGORIES, PALETTE, rgb, spread
 from decomp.drawing.scene import Body
-from decomp.output import write
-from decomp.tetra.incidence import faces_of
+from decomp.meshes.incidence import faces_of
+from decomp.skeletons.files import write
 from decomp.view import page
 from decomp.view.reading import scene_of
-from tests.mesh_output.shapes import bar
+from tests.meshes.shapes import bar
 from tests.skeleton_fixtures import block
 
 

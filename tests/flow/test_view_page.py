@@ -14,11 +14,11 @@ import pytest
 from decomp.cli.main import main
 from decomp.drawing import of_mesh
 from decomp.drawing.colours import rgb
-from decomp.tetra.mesh import Group, GroupKind, TetMesh
+from decomp.meshes.model import Group, GroupKind, TetMesh
 from decomp.view import page
 from decomp.view.reading import scene_of
 from tests import browser as browsers
-from tests.mesh_output.shapes import bar
+from tests.meshes.shapes import bar
 from tests.skeleton_fixtures import block
 
 SHOWN = "window.decompView.pieces.filter(p => p.visible).map(p => p.name)"

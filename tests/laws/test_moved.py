@@ -14,17 +14,17 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.checking.check import check
 from decomp.csg.solid import Difference, Intersection, Solid, Union
-from decomp.medial.result import RegionSkeleton, Skeleton
-from decomp.medial.sheet_kinds import sheet_kinds
-from decomp.output.as_json import contents
-from decomp.output.elements import elements
-from decomp.output.sheet_tables import sheet_tables
-from decomp.tetra.check import check
-from decomp.tetra.mesh import Group, GroupKind, TetMesh
-from decomp.tetra.moved import moved_mesh
+from decomp.meshes.model import Group, GroupKind, TetMesh
+from decomp.meshes.moved import moved_mesh
+from decomp.skeletons.files.as_json import contents
+from decomp.skeletons.files.elements import elements
+from decomp.skeletons.files.sheet_tables import sheet_tables
+from decomp.skeletons.model import RegionSkeleton, Skeleton
+from decomp.skeletons.sheet_kinds import sheet_kinds
 from decomp.vectors import Array
-from tests.skeleton.computed import skeleton_of
+from tests.skeletons.computed import skeleton_of
 from tests.solids import SOLIDS
 
 WAY = np.array([0.6, -0.48, 0.64])

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
-from decomp.cells.surface import open_edges
 from decomp.sampled.contracting import Contractor
 from decomp.sampled.marching import walls
+from decomp.skeletons.cells.surface import open_edges
 from decomp.vectors import Array, Ints
 
 

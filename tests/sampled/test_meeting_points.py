@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp.medial.incidence import Incidence
 from decomp.sampled.placing import Placer
-from decomp.tracing.queries import region_queries
+from decomp.skeletons.balls.queries import region_queries
+from decomp.skeletons.curves.incidence import Incidence
 
 
 def placer_of(solid: decomp.Solid) -> tuple[Placer, dict[str, int]]:

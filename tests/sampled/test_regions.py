@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 import decomp
-from decomp import drafts
+from decomp.checking.check import check
 from decomp.cli.main import main
 from decomp.errors import ContactError, GeometryError
-from decomp.medial.result import Method
 from decomp.sampled import sampling
-from decomp.surfaces import surfaces_by
-from decomp.tetra.check import check
+from decomp.skeletons import drafts
+from decomp.skeletons.model import Method
+from decomp.ways.surfaces import surfaces_by
 
 FILE = """algebraic3d
 solid box = orthobrick(0,0,0; 4,4,2);
@@ -116,7 +116,7 @@ def test_cells_are_written_of_either_way(
 def test_what_neither_way_gives_keeps_the_first_cause(
     refusing: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from decomp.certificate import certificate
+    from decomp.skeletons.certificate import certificate
 
     refusing.append("solid")
     monkeypatch.setattr(certificate, "INTRUSION", -1.0)

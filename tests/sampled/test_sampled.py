@@ -11,17 +11,17 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp import ways
 from decomp.cli.main import main
 from decomp.complex.model import PatchKind
 from decomp.errors import GeometryError, InputError
-from decomp.medial.result import Method, RegionSkeleton, Skeleton
-from decomp.medial.sheet_surface import SheetSurface
 from decomp.sampled import sampling
 from decomp.sampled.jumps import without_jump
 from decomp.sampled.sampling import sampled_skeleton
 from decomp.sites.site import SiteKind
-from tests.skeleton.computed import skeleton_of
+from decomp.skeletons.model import Method, RegionSkeleton, Skeleton
+from decomp.skeletons.sheets.sheet_surface import SheetSurface
+from decomp.ways import skeleton as ways
+from tests.skeletons.computed import skeleton_of
 from tests.solids import SOLIDS
 
 AGREES = [
@@ -145,7 +145,7 @@ def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
     monkeypatch: pytest.MonkeyPatch, times: float, held: bool
 ) -> None:
     """Sheets that cannot be refined keep the chords that they have."""
-    from decomp.complex.refine import refined as actual
+    from decomp.complex.refining.refine import refined as actual
 
     def coarse(given: object, tolerance: float, **_: object) -> object:
         return actual(given, times * tolerance, lenient=True)  # type: ignore[arg-type]
@@ -192,7 +192,7 @@ def test_where_tracing_fails_it_is_sampled_and_the_cause_is_told(
 def test_what_neither_way_gives_is_refused_with_both_causes(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from decomp.certificate import certificate
+    from decomp.skeletons.certificate import certificate
 
     def fails(*_: object) -> Skeleton:
         raise GeometryError("a seam goes astray")
@@ -208,7 +208,7 @@ def test_what_neither_way_gives_is_refused_with_both_causes(
 def test_a_skeleton_that_fails_its_certificate_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from decomp.certificate import certificate
+    from decomp.skeletons.certificate import certificate
 
     monkeypatch.setattr(certificate, "INTRUSION", -1.0)
     monkeypatch.setattr(sampling, "FLOORS", (12.0,))
@@ -239,7 +239,7 @@ def test_a_wall_without_a_jump_is_no_sheet() -> None:
 
 
 def test_the_files_of_a_sampled_skeleton_say_so(tmp_path: Path) -> None:
-    from decomp.output import write
+    from decomp.skeletons.files import write
 
     made = decomp.skeleton(decomp.Block((0, 0, 0), (4, 3, 2)), method="sampled")
     write(made, tmp_path / "block.vtu")

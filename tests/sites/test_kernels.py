@@ -11,8 +11,7 @@ import pytest
 from numba import njit
 
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
-from decomp.kernels import compiled
-from decomp.kernels.carriers import (
+from decomp.carriers.compiled_carriers import (
     CarrierTable,
     carrier_table,
     foot,
@@ -20,7 +19,8 @@ from decomp.kernels.carriers import (
     normal,
     signed_distance,
 )
-from decomp.kernels.on_carriers import normals_at, projected
+from decomp.carriers.on_carriers import normals_at, projected
+from decomp.kernels import compiled
 from decomp.kernels.records import Record
 from decomp.vectors import Array, direction, frozen
 

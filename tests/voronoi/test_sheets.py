@@ -14,10 +14,10 @@ import pyvista
 
 import decomp
 from decomp.cli.main import main
-from decomp.medial.sheet_kinds import sheet_kinds
+from decomp.skeletons.sheet_kinds import sheet_kinds
 from decomp.voronoi import Kind
-from tests.skeleton.computed import skeleton_of
-from tests.skeleton.on_equations import off_equations
+from tests.skeletons.computed import skeleton_of
+from tests.skeletons.on_equations import off_equations
 from tests.solids import SOLIDS
 
 MESHES = Path(__file__).parents[2] / "meshes"
@@ -161,8 +161,8 @@ def test_sheets_on_one_plane_of_a_pair() -> None:
 
 def test_vtu_holds_equations_by_sheet(tmp_path: Path) -> None:
     """The same as the JSON form, for readers of VTK's files and for meshio."""
-    from decomp.output import as_json, vtu
-    from decomp.output.elements import elements
+    from decomp.skeletons.files import as_json, vtu
+    from decomp.skeletons.files.elements import elements
 
     skeleton = skeleton_of("blind hole")
     path = tmp_path / "out.vtu"

@@ -73,7 +73,7 @@ function shownOfEdge(a, b) {
   return last < 1 && last > first ? [[a, b, first], [a, b, last]] : [[a, b, first]];
 }
 
-// as decomp.tetra.incidence.FACES
+// as decomp.meshes.incidence.FACES
 const FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
 
 /** The corners of triangles between tetrahedra (`tets`) of a part that are kept and all else, and whose each is. */

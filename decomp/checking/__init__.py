@@ -1,0 +1,1 @@
+"""Whether a mesh is a mesh of its model."""

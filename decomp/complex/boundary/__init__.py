@@ -1,0 +1,1 @@
+"""The exact boundary of all regions as one complex of triangles."""

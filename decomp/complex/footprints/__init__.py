@@ -1,0 +1,1 @@
+"""Domains in the plane over which boundary faces and sheets are triangulated."""

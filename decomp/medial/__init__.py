@@ -1,1 +1,0 @@
-"""Curves, sheets and reflexive loci of the skeleton, from exact elements to one complex."""

@@ -1,0 +1,1 @@
+"""Tetrahedral meshes as values: elements, named groups and their parts, quality, report."""

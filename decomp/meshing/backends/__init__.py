@@ -1,0 +1,1 @@
+"""The meshers that fill a complex with tetrahedra."""

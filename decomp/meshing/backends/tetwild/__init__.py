@@ -1,0 +1,1 @@
+"""fTetWild in a child process of its own."""

@@ -1,0 +1,1 @@
+"""Nodes brought from within epsilon onto the exact surfaces, curves and points."""

@@ -1,0 +1,1 @@
+"""Models in wide air: its far end is brought near for the mesher and swept back."""

@@ -1,0 +1,1 @@
+"""What each tetrahedron and triangle belongs to, asked of the exact geometry."""

@@ -1,0 +1,1 @@
+"""What a mesher leaves amiss, mended: cut edges, strayed sheets, flat elements."""

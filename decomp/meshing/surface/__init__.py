@@ -1,0 +1,1 @@
+"""The surfaces that a mesh conforms to, with the cells between them."""

@@ -1,0 +1,1 @@
+"""Mid-surfaces: the sheets between two faces that face each other."""

@@ -1,0 +1,1 @@
+"""Steps along a seam: predictor, corrector, and what they have passed."""

@@ -1,0 +1,93 @@
+"""Seams of a graph out of traces."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from decomp.skeletons.seams.seam_graph_model import Node, Seam
+from decomp.skeletons.seams.steps.states import Traced
+from decomp.tolerance import AT_END
+from decomp.vectors import Array, Bools, dot, norm
+
+
+def seam_between(
+    traced: Traced, ends: tuple[int, int], first: Node, last: Node, size: float
+) -> Seam:
+    """A seam with its nodes' points put at its ends."""
+    plain = seam_of(traced, ends)
+    half = len(plain.points) // 2
+    clear = np.concatenate(
+        [
+            _before(plain.points[:half][::-1], first, size)[::-1],
+            _before(plain.points[half:], last, size),
+        ]
+    )
+    inner = np.flatnonzero(clear)
+    if not len(inner):
+        inner = np.array([len(plain.points) // 2])
+    a, b = inner[0], inner[-1]
+    return Seam(
+        np.concatenate([first.point[None], plain.points[inner], last.point[None]]),
+        np.concatenate([[first.radius], plain.radius[inner], [last.radius]]),
+        (plain.sites[a], *(plain.sites[k] for k in inner), plain.sites[b]),
+        np.concatenate(
+            [
+                _feet_at(first, plain.feet[a])[None],
+                plain.feet[inner],
+                _feet_at(last, plain.feet[b])[None],
+            ]
+        ),
+        ends,
+    )
+
+
+def _before(points: Array, node: Node, size: float) -> Bools:
+    """Which points (k, 3) of a seam come before the node at its end.
+
+    Where contacts run together a seam is followed past its end a little, or rounding moves it to
+    and fro beside the node. A step can lead past the node, too.
+    """
+    near = norm(points - node.point) <= AT_END * size
+    way, before = np.diff(points, axis=0), node.point - points[:-1]
+    part = dot(before, way) / np.maximum(dot(way, way), 1e-300)
+    off = norm(before - part[:, None] * way)
+    near[1:] |= (part > 0) & (part <= 1) & (off <= AT_END * size)
+    return np.asarray(np.cumsum(near) == 0)
+
+
+def joined(back: Traced, forward: Traced) -> Traced:
+    """One trace out of two that start at the same point."""
+    turned = [
+        replace(run, points=run.points[::-1], radius=run.radius[::-1], feet=run.feet[::-1])
+        for run in reversed(back.runs)
+    ]
+    meeting, start = turned[-1], forward.runs[0]
+    middle = replace(
+        start,
+        points=np.concatenate([meeting.points, start.points[1:]]),
+        radius=np.concatenate([meeting.radius, start.radius[1:]]),
+        feet=np.concatenate([meeting.feet, start.feet[1:]]),
+    )
+    return replace(forward, runs=(*turned[:-1], middle, *forward.runs[1:]))
+
+
+def seam_of(traced: Traced, ends: tuple[int, int] | None) -> Seam:
+    """A seam of all runs."""
+    runs = [run for run in traced.runs if len(run.points)]
+    points = np.concatenate([run.points for run in runs])
+    radius = np.concatenate([run.radius for run in runs])
+    feet = np.concatenate([run.feet for run in runs])
+    sites = tuple(run.sites for run in runs for _ in range(len(run.points)))
+    # two runs with the same sites share a point that need not stand twice
+    keep = np.ones(len(points), dtype=np.bool_)
+    for k in range(1, len(points)):
+        keep[k] = sites[k] != sites[k - 1] or bool((points[k] != points[k - 1]).any())
+    rows = np.flatnonzero(keep)
+    return Seam(points[rows], radius[rows], tuple(sites[k] for k in rows), feet[rows], ends)
+
+
+def _feet_at(node: Node, feet: Array) -> Array:
+    """The feet (m, 3) at a node that continue those of a seam."""
+    return np.asarray(node.feet[np.argmin(norm(feet[:, None] - node.feet[None]), axis=1)])

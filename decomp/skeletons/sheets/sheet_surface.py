@@ -1,0 +1,159 @@
+"""The Voronoi surface of two sites as an element that vertices are placed on exactly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree  # type: ignore[import-untyped]
+
+from decomp.errors import GeometryError
+from decomp.skeletons.balls.equidistance import placed_between
+from decomp.skeletons.balls.fields import Field, site_fields
+from decomp.skeletons.balls.loci import on_locus
+from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.curves.incidence import Incidence
+from decomp.skeletons.sheets.sheet_family import CLEAR, SheetFamily, difference
+from decomp.vectors import Array, Bools, Ints, norm
+
+
+@dataclass(frozen=True, eq=False)
+class SheetSurface:
+    """Points at equal distance from two sites, near known ones.
+
+    Args:
+        incidence: of the region.
+        sites: a and b; normals point from a's side to b's.
+        points, feet: known points (k, 3) and their feet (k, 2, 3), from which others are found.
+    """
+
+    incidence: Incidence
+    sites: tuple[int, int]
+    points: Array
+    feet: Array
+
+    @property
+    def family(self) -> Incidence | None:
+        """Sheets of one family can be asked for points of all of them at once.
+
+        Those are the sheets of a region whose sites' feet are found without a known one near by.
+        """
+        return None if self._curved else self.incidence
+
+    @staticmethod
+    def of_family(members: Sequence[SheetSurface]) -> SheetFamily:
+        """The family that some sheets of one family make."""
+        return SheetFamily(members[0].incidence, [member.sites for member in members])
+
+    def place(self, points: Array) -> Array:
+        """Move points (k, 3) straight onto the surface.
+
+        Raises:
+            GeometryError: Newton's method fails at one of them.
+        """
+        if not len(points):
+            return np.array(points)
+        placed, converged = self.try_place(points)
+        if not converged.all():
+            names = [self.incidence.sites[s].name for s in self.sites]
+            raise GeometryError(
+                f"a point near {{at}} cannot be moved onto the sheet between {' and '.join(names)}",
+                names,
+                at=points[~converged][0],
+            )
+        return placed
+
+    def try_place(self, points: Array) -> tuple[Array, Bools]:
+        """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
+        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        found = placed_between(
+            self.incidence.boundary,
+            self.incidence.sites,
+            which,
+            points,
+            self._feet_near(points),
+        )
+        return found.points, found.converged
+
+    def normal(self, points: Array) -> Array:
+        """Unit normals (k, 3): the difference of the distances' gradients.
+
+        Where a point is on a site itself (at a vertex in which a reentrant edge ends) the normal
+        is that of the known point nearest to it that is not.
+        """
+        difference = self._difference(points, self._feet_near(points))
+        length = norm(difference)
+        lost = length <= CLEAR
+        if lost.any():
+            known = self._difference(self.points, self.feet)
+            good = np.flatnonzero(norm(known) > 1e-3)
+            if not len(good):
+                raise GeometryError("the sheet at {at} has no normal", at=points[lost][0])
+            nearest = cKDTree(self.points[good]).query(points[lost])[1]
+            difference[lost] = known[good[nearest]]
+            length = norm(difference)
+        return np.asarray(difference / length[:, None])
+
+    def facing(self, points: Array) -> tuple[Array, Array]:
+        """How the feet of points (k, 3) on the surface face each other, and how far they are.
+
+        Returns:
+            (k,) the angle in radians, from 0 to pi, at which the two feet are seen from the point;
+            nan where the point is on a site or has many feet on one; and (k,) the radius.
+        """
+        it = self.incidence
+        one, two = self._fields(points, self._feet_near(points))
+        a, b = one.gradient, two.gradient
+        angle = 2 * np.arctan2(norm(a - b), norm(a + b))
+        lost = (norm(a) < CLEAR) | (norm(b) < CLEAR)
+        lost |= on_locus(it.boundary, it.sites, self.sites, points, CLEAR)
+        return np.where(lost, np.nan, angle), one.distance
+
+    def _difference(self, points: Array, feet: Array) -> Array:
+        pairs: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        return difference(self.incidence, pairs, self._fields(points, feet))
+
+    def _fields(self, points: Array, feet: Array) -> tuple[Field, Field]:
+        it = self.incidence
+        one, two = (
+            site_fields(
+                it.boundary,
+                it.sites,
+                np.full(len(points), site, dtype=np.int64),
+                points,
+                feet[:, column],
+            )
+            for column, site in enumerate(self.sites)
+        )
+        return one, two
+
+    def _feet_near(self, points: Array) -> Array:
+        """Feet (k, 2, 3) from which those of points are found, if a site's foot depends on them.
+
+        They are those of the nearest known point, or the nearest on the whole edge: where a sheet
+        lies on both sides of a seam at which an edge has two feet, a known point has only one.
+        """
+        if not self._curved:
+            return np.asarray(self.feet[np.zeros(len(points), dtype=np.int64)])
+        it = self.incidence
+        feet = self.feet[self._tree.query(points)[1]]
+        other = it.feet(self.sites, points)
+        for column, site in enumerate(self.sites):
+            which: Ints = np.full(len(points), site, dtype=np.int64)
+            known = site_fields(it.boundary, it.sites, which, points, feet[:, column])
+            gap = known.distance - norm(points - other[:, column])
+            nearer = gap > CLEAR * it.boundary.diagonal
+            feet[nearer, column] = other[nearer, column]
+        return np.asarray(feet)
+
+    @cached_property
+    def _curved(self) -> bool:
+        """Whether a site is a curve on which feet are searched from known ones."""
+        table = support_table(self.incidence.boundary, self.incidence.sites)
+        return bool(np.isin(table.kinds[list(self.sites)], SEARCHED).any())
+
+    @cached_property
+    def _tree(self) -> cKDTree:
+        return cKDTree(self.points)

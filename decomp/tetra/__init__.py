@@ -1,1 +1,0 @@
-"""Tetrahedral meshes: from the skeleton complex by TetWild, exact again, named throughout."""

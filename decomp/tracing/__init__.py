@@ -1,1 +1,0 @@
-"""Maximal balls, equidistant points, and the seams and junctions that are traced from them."""

@@ -1,0 +1,1 @@
+"""What users ask for, made in the way that they choose: skeletons, surfaces, meshes."""

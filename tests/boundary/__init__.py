@@ -1,0 +1,1 @@
+"""The exact boundary: faces, edges, vertices, volumes."""

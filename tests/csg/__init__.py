@@ -1,0 +1,1 @@
+"""Primitives, solids and regions."""

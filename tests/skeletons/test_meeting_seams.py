@@ -1,0 +1,82 @@
+"""Where seams touch, or cross unnoticed: a disc about as thick as its web beside a hole."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp.skeletons.seams.graph import seam_graph
+from decomp.skeletons.seams.meeting_seams import Meeting, SeamMeetings
+from decomp.skeletons.seams.seam_graph_model import SeamGraph
+from decomp.vectors import norm
+from tests.skeletons.computed import at_most
+
+
+def disc(radius: float) -> decomp.Solid:
+    """A disc of radius 20 and height 4, with a hole about 14 from its axis, turned by 1 radian."""
+    at = 14 * np.cos(1.0), 14 * np.sin(1.0)
+    hole = decomp.Cylinder((*at, -1), (*at, 5), radius, name="hole")
+    return decomp.Cylinder((0, 0, 0), (0, 0, 4), 20, name="disc") - hole
+
+
+def traced(solid: decomp.Solid) -> tuple[SeamGraph, list[Meeting]]:
+    geometry = decomp.Geometry(solid)
+    boundary = geometry.regions[0]
+    graph = seam_graph(geometry.index, boundary, 0)
+    runs = [run for seam in graph.seams for run in seam.runs]
+    return graph, SeamMeetings(geometry.index, boundary, 0).of(runs)
+
+
+def test_seams_that_touch_meet_in_a_point() -> None:
+    graph, (meeting,) = traced(disc(2))
+    assert not graph.nodes
+    assert meeting.point == pytest.approx([18 * np.cos(1.0), 18 * np.sin(1.0), 2], abs=1e-6)
+    assert meeting.dip <= 1e-12
+
+
+@pytest.mark.parametrize("radius", [1.99, 1.0])
+def test_seams_with_a_gap_do_not_meet(radius: float) -> None:
+    graph, meetings = traced(disc(radius))
+    assert not meetings
+    assert not graph.nodes
+
+
+@pytest.mark.parametrize("over", [1e-3, 1e-4])
+def test_seams_that_cross_end_there(over: float) -> None:
+    """Two circles in the middle plane cross in two points, which one step can lead across."""
+    graph, meetings = traced(disc(2 + over))
+    assert not meetings
+    along = (18**2 - (4 + over) ** 2 + 14**2) / 28
+    aside = np.sqrt(18**2 - along**2) * np.array([1, -1])
+    x, y = np.array([np.cos(1.0), np.sin(1.0)]), np.array([-np.sin(1.0), np.cos(1.0)])
+    places = along * x + aside[:, None] * y
+    assert len(graph.nodes) == 2
+    for place in places:
+        assert min(norm(node.point - [*place, 2]) for node in graph.nodes) <= 1e-9
+    # one around either circle, and two between the nodes, above and below the web's own sheet
+    assert len(graph.seams) == 4
+
+
+def test_the_sheet_between_is_found() -> None:
+    """Where the web is thinner than the disc is thick, its own sheet parts it."""
+    found = decomp.skeleton(disc(2.0001))
+    names = [{found.sites[k].name for k in sheet.sites} for sheet in found.regions[0].sheets]
+    assert names.count({"disc.side", "hole.side"}) == 1
+    assert len(names) == 6
+    assert found.regions[0].certificate.euler == 0
+
+
+def test_places_with_few_digits_are_refused_with_the_place_or_mended() -> None:
+    """Steps lead past one of two junctions close together; a seam is closed one way only then."""
+    solid: decomp.Solid = decomp.Cylinder((0, 0, 0), (0, 0, 4), 20, name="disc")
+    for k in range(6):
+        x, y = round(14 * np.cos(k * np.pi / 3), 5), round(14 * np.sin(k * np.pi / 3), 5)
+        solid = solid - decomp.Cylinder((x, y, -1), (x, y, 5), 2, name="hole")
+    with at_most(60):
+        try:
+            found = decomp.skeleton(solid)
+        except decomp.GeometryError as error:
+            assert "seam" in str(error)
+        else:
+            assert found.regions[0].certificate.euler == -5

@@ -1,0 +1,104 @@
+"""Trims end exactly where the far foot passes to another site; their surfaces do not fold."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+
+import decomp
+from decomp import Block
+from decomp.skeletons.curves.region_curves import RegionCurves
+from decomp.skeletons.curves.trim_changes import change
+from decomp.skeletons.drafts import traced
+from decomp.skeletons.sheets.trim_surfaces import strip
+from decomp.vectors import Array, Ints, norm
+
+
+def curves_of(solid: decomp.Solid) -> RegionCurves:
+    (curves,) = traced(decomp.Geometry(solid), 500, lambda what, done: None)
+    return curves
+
+
+def stepped(a: float, b: float, h: float) -> decomp.Solid:
+    """A block with a step, cut from below by a slot that ends under the step's edge."""
+    hall = Block((0, 0, 0), (4, 4, h), name="hall")
+    shaft = Block((a, b, 0), (4 - a, 4 - b, h + 1), name="shaft")
+    plate = Block((a - 0.5, b + 0.3, -1), (1.5, 0.7, h + 0.6), name="plate")
+    return (hall | shaft) - plate
+
+
+def test_trims_that_cross_meet_in_one_node() -> None:
+    """Two trims cross on the sheet between the faces above and below; all pieces end there."""
+    a, b, h = 0.8066110542, 1.1253080957, 1.3651022309
+    curves = curves_of(stepped(a, b, h))
+    crossing = np.array([a + 1.0, b + 0.4, h])
+    gaps = norm(curves.nodes - crossing)
+    (at,) = np.flatnonzero(gaps < 1e-3)
+    assert gaps[at] <= 1e-10
+    assert sum(at in (piece.ends or ()) for piece in curves.pieces) == 4
+
+
+def test_no_trim_of_planes_lies_on_a_locus() -> None:
+    """Balls over the edge of length 0.03 are small; their two feet have not run together."""
+    base = Block((0, 0, 0), (4, 2, 1), name="base")
+    curves = curves_of(base | Block((1, 1, 0.97), (1, 2, 1), name="boss"))
+    assert curves.runs == curves.reflexive == ()
+    short = [n for n, c in enumerate(curves.over) if c.end - c.start == pytest.approx(0.03)]
+    assert short
+    for number in short:
+        assert any(number in piece.over for piece in curves.pieces)
+
+
+def area(lower: Array, upper: Array, triangles: Ints) -> Array:
+    """Twice the areas of triangles between polylines (k, 2) with vertices counted on."""
+    corners = np.concatenate([lower, upper])[triangles]
+    (ux, uy), (vx, vy) = (corners[:, k].T - corners[:, 0].T for k in (1, 2))
+    found: Array = ux * vy - uy * vx
+    return found
+
+
+@pytest.mark.parametrize("peaks", [(1.0,), (2.0, 0.1, 2.0), (0.1, 3.0, 0.2, 2.0, 0.5, 0.4)])
+def test_strips_with_hollows_do_not_fold(peaks: tuple[float, ...]) -> None:
+    lower = np.array([[0.0, 0.0], [3.0, 0.0]])
+    upper = np.stack([np.linspace(0, 3, len(peaks) + 2), [0.5, *peaks, 0.5]], axis=1)
+    numbers = np.arange(2, 2 + len(upper))
+    triangles = strip(np.array([0, 1]), lower[:, 0], numbers, *upper.T)
+    found = area(lower, upper, triangles)
+    assert (found > 0).all()
+    assert found.sum() / 2 == pytest.approx(np.trapezoid(upper[:, 1], upper[:, 0]))
+    assert len(triangles) == len(upper)
+
+
+def test_strips_whose_ends_are_points_of_the_edge() -> None:
+    lower, upper = np.array([0.0, 4.0]), np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    height = np.array([0.0, 1.0, 0.1, 1.0, 0.0])
+    triangles = strip(np.array([0, 1]), lower, np.array([0, 2, 3, 4, 1]), upper, height)
+    points = np.stack([[0.0, 4.0, 1.0, 2.0, 3.0], [0.0, 0.0, 1.0, 0.1, 1.0]], axis=1)
+    found = area(points[:2], points[2:], triangles)
+    assert (found > 0).all()
+    assert found.sum() / 2 == pytest.approx(np.trapezoid(height, upper))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_double_roots_are_placed(turn: float) -> None:
+    """From a change that tolerances put beside the touch; `turn` makes it lopsided."""
+    at = 1.2
+
+    def touch(s: float) -> float:
+        return 4 - 4 * cos(s - at) + turn * (s - at) ** 3
+
+    assert change(touch, at - 1.1e-5, at - 1.1e-5 + 1e-12, 6.28, 10.0) == pytest.approx(
+        at, abs=1e-8
+    )
+
+
+def test_single_roots_stay() -> None:
+    """Even where another one is near."""
+
+    def two(s: float) -> float:
+        return (s - 1.0) * (s - 1.002)
+
+    assert change(two, 1.0 - 1e-9, 1.0 + 1e-9, 6.28, 10.0) == pytest.approx(1.0, abs=1e-12)
+    assert change(sin, 3.14159, 3.1416, 6.28, 10.0) == pytest.approx(pi, abs=1e-12)
