@@ -65,6 +65,7 @@ def draw() -> None:
     files = {n: len(list((ROOT / "decomp" / n).rglob("*.py"))) for n in place}
     figure, axes = plt.subplots(figsize=(8, 0.62 * len(rows)))
     for number, ((a, b), count) in enumerate(sorted(direct(imports(set(place)), level).items())):
+        bend = 0.12 * (-1) ** number * min(2, level[b] - level[a] - 1)
         axes.annotate(
             "",
             xy=(place[b][0], place[b][1] + 0.3),
@@ -72,8 +73,8 @@ def draw() -> None:
             arrowprops={
                 "arrowstyle": "-|>",
                 "color": COLOURS[2 * number % 20],
-                "linewidth": 0.6 + 0.4 * count**0.5 / 2,
-                "connectionstyle": f"arc3,rad={0.12 * (-1) ** number * min(2, level[b] - level[a] - 1)}",
+                "linewidth": 0.6 + 0.2 * count**0.5,
+                "connectionstyle": f"arc3,rad={bend}",
             },
         )
     for name, (x, y) in place.items():

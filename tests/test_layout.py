@@ -17,7 +17,7 @@ def listed() -> list[Path]:
     found: list[Path] = []
     above = PACKAGE
     for line in tree.splitlines():
-        name = re.match(r"( {4}| {8})([a-z]+(?:/|\\.py)) ", line)
+        name = re.match(r"( {4}| {8})([a-z]+(?:/|\.py)) ", line)
         if name and len(name[1]) == 4:
             above = PACKAGE / name[2]
         if name:
