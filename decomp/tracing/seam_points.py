@@ -13,7 +13,7 @@ from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tolerance import ON_LOCUS
 from decomp.tracing.contacts import ContactFinder
-from decomp.tracing.following import settle
+from decomp.tracing.stepping import settle
 from decomp.tracing.loci import on_locus
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import region_queries

@@ -9,7 +9,7 @@ import numpy as np
 
 from decomp.tracing.arriving import arrival
 from decomp.tracing.fins import fin as merging_feet
-from decomp.tracing.following import advance
+from decomp.tracing.stepping import advance
 from decomp.tracing.landing import landing
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State

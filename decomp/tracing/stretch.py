@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.tracing.following import track
+from decomp.tracing.stepping import track
 from decomp.tracing.seam_states import Run, State
 from decomp.vectors import norm
 

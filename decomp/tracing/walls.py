@@ -15,7 +15,7 @@ from decomp.boundary.topology import Convexity, RegionBoundary
 from decomp.kernels.carriers import normal
 from decomp.sites.site import Site, SiteKind
 from decomp.tracing.compiled import inner, scalar
-from decomp.tracing.following import Track, advance
+from decomp.tracing.stepping import Track, advance
 from decomp.tracing.supports import SupportTable, support, tangent_at
 from decomp.vectors import Array, Ints
 
