@@ -17,6 +17,7 @@ from decomp.medial.closed_sheets import ClosedSheetMaker
 from decomp.medial.curve_elements import RayCurve
 from decomp.medial.drawn_sheets import SheetPart
 from decomp.medial.leaving_together import matched
+from decomp.medial.passing_close import parted
 from decomp.medial.pieces import CurvePiece
 from decomp.medial.region_curves import RegionCurves
 from decomp.medial.result import TrimSurface
@@ -106,7 +107,8 @@ class RegionAssembler:
         """
         nodes = self._place_nodes()
         pieces = self._curves.pieces
-        samples = matched(pieces, [self._sampled(piece) for piece in pieces])
+        samples = [self._sampled(piece) for piece in pieces]
+        samples = matched(pieces, parted(pieces, samples, self._tolerance, self._size))
         lines = [self._line(*each, nodes) for each in zip(pieces, samples, strict=True)]
         points = self._points()
         kinks = self._kinks(nodes)

@@ -23,6 +23,9 @@ LEAST = 10
 """A piece from a node back to it is longer than so many times `ONE_NODE`."""
 ON = 3e-8
 """Nodes nearer to a curve than this part of the size lie on it."""
+FEET = 0.1
+"""Feet farther apart than this part of the radius are different contacts, also between middles of
+pieces that are sampled differently."""
 
 Contact = tuple[int, ...]
 
@@ -217,7 +220,15 @@ def _merged(pieces: Sequence[CurvePiece], size: float) -> list[CurvePiece]:
 
 
 def _coincide(a: CurvePiece, b: CurvePiece, size: float) -> bool:
-    """Whether two pieces with the same ends are one curve: b's middle lies on a."""
+    """Whether two pieces with the same ends are one curve: b's middle lies on a.
+
+    Seams that overlap by little are nearer to each other than curves can be told apart, but not
+    their feet.
+    """
+    if a.kind is b.kind is LineKind.SEAM:
+        apart = norm(a.feet[:, None] - b.feet[None]).min(axis=1)
+        if bool((apart > FEET * float(norm(a.middle - a.feet[0]))).any()):
+            return False
     middle = b.middle
     gap = norm(a.points - middle)
     step = norm(np.diff(a.points, axis=0)).max()

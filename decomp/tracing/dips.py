@@ -2,7 +2,8 @@
 
 How much farther another site is than the seam's own falls and grows again along the step. Where
 two seams overlap by a small d this gap is below zero over a way of the order of the root of d, which
-a step leads across without anything to be seen at its ends, but for the gap's slopes.
+a step leads across without anything to be seen at its ends, but for the gap's slopes. Where d is
+below the tolerance both touch: along either the other's site counts as never nearer.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from math import sqrt
 
 from decomp.sites.octree import locate
+from decomp.tolerance import TOLERANCE
 from decomp.tracing.compiled import inner
 from decomp.tracing.probing import APART, Probe, candidate_foot, inside, nearest
 from decomp.tracing.stepping import Track, advance
@@ -114,6 +116,27 @@ def gap_to(
 
 
 @inner
+def only_touches(
+    probe: Probe, track: Track, here: int, row: int, count: int, length: float, size: float
+) -> bool:
+    """Whether what is nearer at a row than the seam's sites is so by no more than the tolerance.
+
+    All along the dip, whose depth is that of a parabola: its gap is known in the row, and its
+    slopes there and a length before, in row `here`.
+    """
+    x, y, z = track.points[row, 0], track.points[row, 1], track.points[row, 2]
+    hit = nearest(probe, x, y, z)
+    if hit.distance < track.radius[row] - TOLERANCE * size:
+        return False
+    before, _, slope = gap_to(probe, hit.candidate, track, here, count)
+    known, gap, far_slope = gap_to(probe, hit.candidate, track, row, count)
+    if before or known:
+        return False
+    bend = (far_slope - slope) / length
+    return bool(bend > 0.0 and gap - far_slope**2 / (2.0 * bend) >= -TOLERANCE * size)
+
+
+@inner
 def _nearer(
     table: SupportTable,
     probe: Probe,
@@ -140,7 +163,7 @@ def _nearer(
         # where the tangents at both ends meet; a gap that bends upwards is above them
         way = high - low
         bound = gap + slope * (far_gap - gap - far_slope * way) / (slope - far_slope)
-        if bound > -probe.slack:
+        if bound > -TOLERANCE * size:
             return 0.0
         share = slope / (slope - far_slope)
         middle = low + min(max(share, INWARDS), 1.0 - INWARDS) * way
@@ -151,11 +174,12 @@ def _nearer(
         known, least, turn = gap_to(probe, k, track, spare, len(which))
         if known:
             return 0.0
-        if least < -probe.slack:
+        if least < -TOLERANCE * size:
             x, y, z = track.points[spare, 0], track.points[spare, 1], track.points[spare, 2]
             if not inside(probe, x, y, z):
                 return 0.0
-            nearer = nearest(probe, x, y, z).distance < track.radius[spare] - probe.slack
+            away = nearest(probe, x, y, z).distance
+            nearer = away < track.radius[spare] - TOLERANCE * size
             return middle if nearer else 0.0
         if turn < 0.0:
             low, gap, slope = middle, least, turn

@@ -22,7 +22,7 @@ from decomp.tracing.probing import (
     inside,
     nearest,
 )
-from decomp.tracing.dips import dip_on
+from decomp.tracing.dips import dip_on, only_touches
 from decomp.tracing.stepping import Track, advance
 from decomp.tracing.supports import SupportTable, past_end, support
 from decomp.vectors import Array, Ints
@@ -221,7 +221,10 @@ def follow(
                     rough = True
                     break
             elif q == 0:
-                if away < bound:
+                if away < bound and not (
+                    not narrowing
+                    and only_touches(probe, track, last, trial, count, length, size)
+                ):
                     change, contact = INTRUDED, -1
                     break
             elif away > bound or past_end(table, which[q - 1], *_foot(track, row)) > beyond:
