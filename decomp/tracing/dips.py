@@ -1,9 +1,9 @@
 """What comes nearer than a seam's own sites on a short stretch in the middle of a step, compiled.
 
 How much farther another site is than the seam's own falls and grows again along the step. Where
-two seams overlap by a small d this gap is below zero over a way of the order of the root of d, which
-a step leads across without anything to be seen at its ends, but for the gap's slopes. Where d is
-below the tolerance both touch: along either the other's site counts as never nearer.
+two seams overlap by a small d this gap is below zero on a stretch of the order of the root of d,
+which a step leads across with nothing to be seen at its ends but the gap's slopes. Where d is below the
+tolerance both touch: along either the other's site counts as never nearer.
 """
 
 from __future__ import annotations
@@ -92,9 +92,7 @@ def dip_on(
 
 
 @inner
-def gap_to(
-    probe: Probe, k: int, track: Track, row: int, count: int
-) -> tuple[bool, float, float]:
+def gap_to(probe: Probe, k: int, track: Track, row: int, count: int) -> tuple[bool, float, float]:
     """How much farther candidate k is than the sites of the seam's point in a row.
 
     Returns:

@@ -11,6 +11,7 @@ from math import inf, sqrt
 
 from decomp.kernels.carriers import Triple
 from decomp.tracing.compiled import inner, scalar
+from decomp.tracing.dips import dip_on, only_touches
 from decomp.tracing.probing import (
     HOLDS,
     INTRUDED,
@@ -22,7 +23,6 @@ from decomp.tracing.probing import (
     inside,
     nearest,
 )
-from decomp.tracing.dips import dip_on, only_touches
 from decomp.tracing.stepping import Track, advance
 from decomp.tracing.supports import SupportTable, past_end, support
 from decomp.vectors import Array, Ints
@@ -222,8 +222,7 @@ def follow(
                     break
             elif q == 0:
                 if away < bound and not (
-                    not narrowing
-                    and only_touches(probe, track, last, trial, count, length, size)
+                    not narrowing and only_touches(probe, track, last, trial, count, length, size)
                 ):
                     change, contact = INTRUDED, -1
                     break

@@ -13,11 +13,11 @@ from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.tolerance import ON_LOCUS
 from decomp.tracing.contacts import ContactFinder
-from decomp.tracing.stepping import settle
 from decomp.tracing.loci import on_locus
 from decomp.tracing.probing import TOWARDS
 from decomp.tracing.queries import region_queries
 from decomp.tracing.seam_states import State
+from decomp.tracing.stepping import settle
 from decomp.tracing.stretch import Stretch
 from decomp.tracing.supports import support_table
 from decomp.vectors import Array

@@ -9,10 +9,10 @@ import numpy as np
 
 from decomp.tracing.arriving import arrival
 from decomp.tracing.fins import fin as merging_feet
-from decomp.tracing.stepping import advance
 from decomp.tracing.landing import landing
 from decomp.tracing.seam_points import SeamPoints
 from decomp.tracing.seam_states import State
+from decomp.tracing.stepping import advance
 from decomp.tracing.stretch import Stretch
 from decomp.tracing.vertex_fins import at_vertex
 from decomp.tracing.walls import ALONG, CROSSED, JOINS, MISSED, Wall, Walls, cross, gap_ahead

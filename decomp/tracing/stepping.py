@@ -1,4 +1,4 @@
-"""Single steps along a seam with constant sites, compiled: ahead along the tangent, and back onto it.
+"""Single steps along a seam with constant sites, compiled: ahead along it, and back onto it.
 
 Points are kept in the rows of a track.
 """

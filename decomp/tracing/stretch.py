@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.tracing.stepping import track
 from decomp.tracing.seam_states import Run, State
+from decomp.tracing.stepping import track
 from decomp.vectors import norm
 
 SAME = 1e-10
