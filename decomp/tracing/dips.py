@@ -2,8 +2,8 @@
 
 How much farther another site is than the seam's own falls and grows again along the step. Where
 two seams overlap by a small d this gap is below zero on a stretch of the order of the root of d,
-which a step leads across with nothing to be seen at its ends but the gap's slopes. Where d is below the
-tolerance both touch: along either the other's site counts as never nearer.
+which a step leads across with nothing to be seen at its ends but the gap's slopes. Where d is
+below the tolerance both touch: along either the other's site counts as never nearer.
 """
 
 from __future__ import annotations
