@@ -19,6 +19,9 @@ from decomp.vectors import Array, Bools, Ints, dot, norm
 
 SHARE = 0.25
 """Chords may stand out from their curves by this part of the gap to another one."""
+LONGER = 2.0
+"""Chords may be so many times as long as those of the other curve to which they are nearer than
+these are long: triangles between both have no area else."""
 ROUNDS = 24
 """So often chords are halved at most."""
 ASIDE = 0.5
@@ -69,8 +72,10 @@ def _parted(
             break
         gap = _gaps(one, other, pairs)
         pairs, gap = pairs[gap < reach], gap[gap < reach]
-        one, more = _halved(curves[0], one, pairs[:, 0], gap, rounding)
-        other, others = _halved(curves[1], other, pairs[:, 1], gap, rounding)
+        sides = norm(np.diff(one, axis=0))[pairs[:, 0]], norm(np.diff(other, axis=0))[pairs[:, 1]]
+        long = [(gap < b) & (a > LONGER * b) for a, b in (sides, sides[::-1])]
+        one, more = _halved(curves[0], one, pairs[:, 0], gap, long[0], rounding)
+        other, others = _halved(curves[1], other, pairs[:, 1], gap, long[1], rounding)
         if not (more or others):
             break
     return one, other
@@ -113,14 +118,25 @@ def _gaps(one: Array, other: Array, pairs: Ints) -> Array:
 
 
 def _halved(
-    curve: CurveElement, line: Array, chords: Ints, gap: Array, rounding: float
+    curve: CurveElement, line: Array, chords: Ints, gap: Array, long: Bools, rounding: float
 ) -> tuple[Array, bool]:
-    """A polyline with those chords halved that stand out by much of a gap; and whether any do."""
+    """A polyline with chords halved that are too long beside another one; and whether any are.
+
+    Args:
+        curve: that the polyline is on.
+        line: (n, 3).
+        chords: (k,) of it that are near to chords of the other one.
+        gap: (k,) between both.
+        long: (k,) whether the other one has much shorter chords there.
+        rounding: what a chord may stand out from its curve in any case.
+    """
     least = np.full(len(line) - 1, np.inf)
     np.minimum.at(least, chords, gap)
     rows = np.flatnonzero(np.isfinite(least))
     middle = (line[rows] + line[rows + 1]) / 2
     placed = curve.place(middle)
     off, length = norm(placed - middle), norm(line[rows + 1] - line[rows])
-    coarse: Bools = (off > SHARE * least[rows]) & (off > rounding) & (off < ASIDE * length)
+    coarse: Bools = (off > SHARE * least[rows]) & (off > rounding)
+    coarse |= np.isin(rows, chords[long])
+    coarse &= off < ASIDE * length
     return np.insert(line, rows[coarse] + 1, placed[coarse], axis=0), bool(coarse.any())

@@ -109,9 +109,7 @@ def network(
     # a seam that comes back to its start at once is no more than its node
     loops = [p for p in pieces if _is_loop(p) and p.length > LEAST * ONE_NODE * size]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
-    firm, loose, apart = (
-        np.array(points).reshape(-1, 3) for points in (turns, touches, junctions)
-    )
+    firm, loose, apart = (np.array(points).reshape(-1, 3) for points in (turns, touches, junctions))
     every = np.concatenate([fixed, firm, apart, ends, loose])
     first = len(fixed) + len(firm)
     alone = range(first, first + len(apart))
@@ -134,9 +132,7 @@ def _is_loop(piece: CurvePiece) -> bool:
     return bool((piece.points[0] == piece.points[-1]).all()) and len(piece.points) > 3
 
 
-def _welded(
-    points: Array, fixed: int, alone: range, tolerance: float
-) -> tuple[Array, Ints]:
+def _welded(points: Array, fixed: int, alone: range, tolerance: float) -> tuple[Array, Ints]:
     """Unique points and for each point its number.
 
     The first `fixed` points keep their numbers; those `alone` are not joined to each other, and

@@ -53,8 +53,8 @@ def departures(
         found = _at(points, point, touching, ray, part * touching.radius)
         if found is not None:
             return found
-    if len(ray.contacts) == 3 and all(len(touching.sites[k]) == 1 for k in ray.contacts):
-        # nothing can be told apart: the seam may be shorter than it is looked ahead
+    if all(len(touching.sites[k]) == 1 for k in ray.contacts):
+        # the seam may be shorter than it is looked ahead: it starts at the point itself
         which = [touching.sites[k][0] for k in ray.contacts]
         feet = touching.feet[list(ray.contacts)]
         state = points.state(which, point, feet, ray.direction)
