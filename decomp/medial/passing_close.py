@@ -48,8 +48,12 @@ def parted(
     for number, piece in enumerate(pieces):
         for pair in set(piece.pairs):
             by_pair.setdefault(pair, []).append(number)
-    both = {two for group in by_pair.values() for two in combinations(group, 2)}
-    for one, other in sorted(both):
+    boxes = [(line.min(axis=0), line.max(axis=0)) for line in found]
+    room = 2 * tolerance / SHARE
+    for one, other in sorted({two for group in by_pair.values() for two in combinations(group, 2)}):
+        (low, high), (other_low, other_high) = boxes[one], boxes[other]
+        if (low > other_high + room).any() or (other_low > high + room).any():
+            continue
         if set(pieces[one].ends or ()).isdisjoint(pieces[other].ends or ()):
             curves = pieces[one].element, pieces[other].element
             lines = found[one], found[other]
