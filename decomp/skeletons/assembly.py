@@ -20,6 +20,7 @@ from decomp.skeletons.balls.loci import axis_gap, on_locus
 from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.curves.curve_elements import RayCurve
 from decomp.skeletons.curves.leaving_together import matched
+from decomp.skeletons.curves.passing_close import parted
 from decomp.skeletons.curves.pieces import CurvePiece
 from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.curves.rim_curve import RimCurve
@@ -106,7 +107,8 @@ class RegionAssembler:
         """
         nodes = self._place_nodes()
         pieces = self._curves.pieces
-        samples = matched(pieces, [self._sampled(piece) for piece in pieces])
+        samples = [self._sampled(piece) for piece in pieces]
+        samples = matched(pieces, parted(pieces, samples, self._tolerance, self._size))
         lines = [self._line(*each, nodes) for each in zip(pieces, samples, strict=True)]
         points = self._points()
         kinks = self._kinks(nodes)

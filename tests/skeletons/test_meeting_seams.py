@@ -9,7 +9,7 @@ import decomp
 from decomp.skeletons.seams.graph import seam_graph
 from decomp.skeletons.seams.meeting_seams import Meeting, SeamMeetings
 from decomp.skeletons.seams.seam_graph_model import SeamGraph
-from decomp.vectors import norm
+from decomp.vectors import Array, norm
 from tests.skeletons.computed import at_most
 
 
@@ -67,16 +67,51 @@ def test_the_sheet_between_is_found() -> None:
     assert found.regions[0].certificate.euler == 0
 
 
-def test_places_with_few_digits_are_refused_with_the_place_or_mended() -> None:
-    """Steps lead past one of two junctions close together; a seam is closed one way only then."""
+@pytest.mark.parametrize("over", [1e-5, 1e-6, 1e-7])
+def test_seams_that_cross_by_little_end_there(over: float) -> None:
+    """The seams overlap by less than chords stand out from them, on a stretch of its root."""
+    found = decomp.skeleton(disc(2 + over))
+    along = (18**2 - (4 + over) ** 2 + 14**2) / 28
+    places = [np.sqrt(18**2 - along**2) * sign for sign in (1, -1)]
+    aside = [float(at @ [-np.sin(1.0), np.cos(1.0), 0]) for at in junctions(found)]
+    assert sorted(aside) == pytest.approx(sorted(places), rel=1e-4)
+    names = [{found.sites[k].name for k in sheet.sites} for sheet in found.regions[0].sheets]
+    assert names.count({"disc.side", "hole.side"}) == 1
+    assert len(names) == 6
+    assert found.regions[0].certificate.euler == 0
+
+
+@pytest.mark.parametrize("gap", [1e-4, 1e-6, 1e-8])
+def test_seams_that_pass_closely_stay_apart(gap: float) -> None:
+    """The middle sheet is a ring with a neck as wide as the gap."""
+    found = decomp.skeleton(disc(2 - gap))
+    assert not junctions(found)
+    assert len(found.regions[0].sheets) == 5
+    assert found.regions[0].certificate.euler == 0
+
+
+def test_an_overlap_below_the_tolerance_is_a_touch() -> None:
+    found = decomp.skeleton(disc(2 + 1e-9))
+    (junction,) = junctions(found)
+    assert junction == pytest.approx([18 * np.cos(1.0), 18 * np.sin(1.0), 2], abs=1e-3)
+    assert len(found.regions[0].sheets) == 5
+
+
+def junctions(found: decomp.Skeleton) -> list[Array]:
+    """The places at which seams end."""
+    return [found.complex.points[junction.vertex] for junction in found.regions[0].junctions]
+
+
+@pytest.mark.parametrize("digits", range(4, 10))
+def test_places_with_few_digits(digits: int) -> None:
+    """Holes as near to the rim as the disc is thick, to so many digits."""
     solid: decomp.Solid = decomp.Cylinder((0, 0, 0), (0, 0, 4), 20, name="disc")
-    for k in range(6):
-        x, y = round(14 * np.cos(k * np.pi / 3), 5), round(14 * np.sin(k * np.pi / 3), 5)
+    for k in range(5):
+        angle = 0.3 + 2 * k * np.pi / 5
+        x, y = round(14 * np.cos(angle), digits), round(14 * np.sin(angle), digits)
         solid = solid - decomp.Cylinder((x, y, -1), (x, y, 5), 2, name="hole")
+    geometry = decomp.Geometry(solid)
     with at_most(60):
-        try:
-            found = decomp.skeleton(solid)
-        except decomp.GeometryError as error:
-            assert "seam" in str(error)
-        else:
-            assert found.regions[0].certificate.euler == -5
+        found = decomp.skeleton(geometry)
+    assert geometry.regions[0].volume == pytest.approx(4 * np.pi * (20**2 - 5 * 2**2), rel=1e-9)
+    assert found.regions[0].certificate.euler == -4

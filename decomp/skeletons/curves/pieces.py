@@ -23,6 +23,11 @@ LEAST = 10
 """A piece from a node back to it is longer than so many times `ONE_NODE`."""
 ON = 3e-8
 """Nodes nearer to a curve than this part of the size lie on it."""
+SPACING = 1e-2
+"""The same, as a part of the distance from the next node, for nodes closer than `ONE_NODE`."""
+FEET = 0.1
+"""Feet farther apart than this part of the radius are different contacts, also between middles of
+pieces that are sampled differently."""
 
 Contact = tuple[int, ...]
 
@@ -86,6 +91,7 @@ def network(
     pieces: Sequence[CurvePiece],
     turns: Sequence[Array] = (),
     touches: Sequence[Array] = (),
+    junctions: Sequence[Array] = (),
 ) -> Network:
     """Join pieces into a network.
 
@@ -95,6 +101,7 @@ def network(
             of them, or to each other.
         turns: more points (3,) at which pieces are cut; ends that are joined to one move there.
         touches: the same, but these move to ends.
+        junctions: points (3,) that are ends, different ones however close they are to each other.
         pieces: with their ends as first and last point; a piece whose first and last points agree
             to rounding and that is marked by `ends` None and `closed` points stays closed.
     """
@@ -102,10 +109,12 @@ def network(
     # a seam that comes back to its start at once is no more than its node
     loops = [p for p in pieces if _is_loop(p) and p.length > LEAST * ONE_NODE * size]
     ends = np.array([q for p in open_ for q in (p.points[0], p.points[-1])]).reshape(-1, 3)
-    firm, loose = (np.array(points).reshape(-1, 3) for points in (turns, touches))
-    every = np.concatenate([fixed, firm, ends, loose])
-    nodes, which = _welded(every, len(fixed), ONE_NODE * size)
+    firm, loose, apart = (np.array(points).reshape(-1, 3) for points in (turns, touches, junctions))
+    every = np.concatenate([fixed, firm, apart, ends, loose])
     first = len(fixed) + len(firm)
+    alone = range(first, first + len(apart))
+    nodes, which = _welded(every, len(fixed), alone, ONE_NODE * size)
+    first += len(apart)
     numbers = which[first : first + len(ends)].reshape(-1, 2)
     joined = []
     for piece, (a, b) in zip(open_, numbers.tolist(), strict=True):
@@ -123,8 +132,12 @@ def _is_loop(piece: CurvePiece) -> bool:
     return bool((piece.points[0] == piece.points[-1]).all()) and len(piece.points) > 3
 
 
-def _welded(points: Array, fixed: int, tolerance: float) -> tuple[Array, Ints]:
-    """Unique points and for each point its number; the first `fixed` points keep their numbers."""
+def _welded(points: Array, fixed: int, alone: range, tolerance: float) -> tuple[Array, Ints]:
+    """Unique points and for each point its number.
+
+    The first `fixed` points keep their numbers; those `alone` are not joined to each other, and
+    others to the nearest one.
+    """
     which = np.full(len(points), -1, dtype=np.int64)
     which[:fixed] = np.arange(fixed)
     unique = list(points[:fixed])
@@ -132,8 +145,11 @@ def _welded(points: Array, fixed: int, tolerance: float) -> tuple[Array, Ints]:
     for k in range(len(points)):
         if which[k] < 0:
             near = [j for j in tree.query_ball_point(points[k], tolerance) if which[j] >= 0]
+            if k in alone:
+                near = [j for j in near if j not in alone]
             if near:
-                which[k] = which[min(near)]
+                gaps = [float(norm(points[j] - points[k])) for j in sorted(near)]
+                which[k] = which[sorted(near)[int(np.argmin(gaps))]]
             else:
                 which[k] = len(unique)
                 unique.append(points[k])
@@ -162,7 +178,7 @@ def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[Cu
     if not found:
         return [piece]
     candidates = np.array([point for _, _, point in found])
-    on = gaps_from(piece.element, candidates) <= ON * size
+    on = gaps_from(piece.element, candidates) <= _on(candidates, tree, size)
     taken: dict[int, float] = {}
     for (at, number, _), good in zip(found, on.tolist(), strict=True):
         if good:
@@ -171,6 +187,15 @@ def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[Cu
         return [piece]
     stops = sorted((at, number) for number, at in taken.items())
     return _split(piece, nodes, stops)
+
+
+def _on(points: Array, tree: cKDTree, size: float) -> Array:
+    """How near to a curve each of some nodes (k, 3) must be to lie on it.
+
+    Those that are closer to another node than others can be told apart are exact.
+    """
+    spacing = tree.query(points, k=2)[0][:, 1]
+    return np.where(spacing > ONE_NODE * size, ON * size, SPACING * spacing)
 
 
 def _split(piece: CurvePiece, nodes: Array, stops: list[tuple[float, int]]) -> list[CurvePiece]:
@@ -217,7 +242,15 @@ def _merged(pieces: Sequence[CurvePiece], size: float) -> list[CurvePiece]:
 
 
 def _coincide(a: CurvePiece, b: CurvePiece, size: float) -> bool:
-    """Whether two pieces with the same ends are one curve: b's middle lies on a."""
+    """Whether two pieces with the same ends are one curve: b's middle lies on a.
+
+    Seams that overlap by little are nearer to each other than curves can be told apart, but not
+    their feet.
+    """
+    if a.kind is b.kind is LineKind.SEAM:
+        apart = norm(a.feet[:, None] - b.feet[None]).min(axis=1)
+        if bool((apart > FEET * float(norm(a.middle - a.feet[0]))).any()):
+            return False
     middle = b.middle
     gap = norm(a.points - middle)
     step = norm(np.diff(a.points, axis=0)).max()

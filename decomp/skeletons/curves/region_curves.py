@@ -122,7 +122,10 @@ def region_curves(
     touches = touching_points(incidence, [*seams, *trims])
     runs = [run for seam in graph.seams for run in seam.runs]
     touches += [meeting.point for meeting in SeamMeetings(index, boundary, region).of(runs)]
-    joined = network(boundary.diagonal, np.array(fixed).reshape(-1, 3), found, turns, touches)
+    # the graph has told junctions apart by their contacts
+    junctions = [node.point for node in graph.nodes if node.radius > 0]
+    ends = np.array(fixed).reshape(-1, 3)
+    joined = network(boundary.diagonal, ends, found, turns, touches, junctions)
     pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
     return RegionCurves(
         incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(locus_runs)

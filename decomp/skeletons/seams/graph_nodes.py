@@ -9,7 +9,9 @@ from itertools import product
 import numpy as np
 
 from decomp.errors import GeometryError
+from decomp.skeletons.balls.contacts import Contacts
 from decomp.skeletons.balls.equidistance import balanced
+from decomp.skeletons.seams.coinciding import coinciding, is_node
 from decomp.skeletons.seams.ending.fins import with_one_foot
 from decomp.skeletons.seams.known_seams import KnownSeams
 from decomp.skeletons.seams.leaving.arcs import Arcs
@@ -51,6 +53,7 @@ class GraphNodes:
         self.taken: dict[tuple[int, int], int] = {}
         self._places: dict[tuple[int, ...], list[int]] = {}
         self._unforeseen: set[int] = set()
+        self._extrapolated: set[int] = set()
 
     def on_boundary(self, last: State) -> int:
         """The node where a seam's radius vanishes.
@@ -109,12 +112,15 @@ class GraphNodes:
         arc of a face is as near. No seam leaves with a contact there, which is only one point of
         the arc; the seam that is `ending` is given a ray of its own.
         """
-        known = self.known(point)
+        if ending is None:
+            point, touching = coinciding(self._points, point)
+            known = self.known(point, touching)
+        else:
+            touching = self._points.contacts.at(point, self._points.tolerances.same)
+            touching = with_one_foot(touching, ending)
+            known = self.known(point)
         if known is not None:
             return known
-        touching = self._points.contacts.at(point, self._points.tolerances.same)
-        if ending is not None:
-            touching = with_one_foot(touching, ending)
         touching, leaving = self._arcs.leaving(touching, point)
         rays, states = [], []
         arcs = {
@@ -130,6 +136,8 @@ class GraphNodes:
                 states.append(state)
         node = Node(point, touching.radius, touching.sites, touching.feet, tuple(rays))
         number = self.add(node, states)
+        if ending is not None:
+            self._extrapolated.add(number)
         if arcs:
             self._unforeseen.add(number)
         return number
@@ -157,10 +165,21 @@ class GraphNodes:
                 del self.taken[ray]
                 self.open.insert(0, ray)
 
-    def known(self, point: Array) -> int | None:
-        """The node at a point; nodes are kept by the cells of a grid that they are close to."""
+    def known(self, point: Array, touching: Contacts | None = None) -> int | None:
+        """The node at a point; nodes are kept by the cells of a grid that they are close to.
+
+        Args:
+            point: (3,).
+            touching: contacts of the point if they are known exactly: then another node can be
+                closer to it than points are told apart that are known less well.
+        """
         for number in self._places.get(_cell(point, self._size), []):
-            if float(norm(self.nodes[number].point - point)) <= self._points.tolerances.one_node:
+            node = self.nodes[number]
+            if float(norm(node.point - point)) <= self._points.tolerances.one_node and (
+                touching is None
+                or number in self._extrapolated
+                or is_node(self._points, node, point, touching)
+            ):
                 return number
         return None
 

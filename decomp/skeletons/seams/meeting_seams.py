@@ -98,7 +98,9 @@ class SeamMeetings:
             np.full(len(rows), 2.0),
             RESOLUTION,
         )
+        # what is left of the gap would be so in the node, and is not by rounding
         inside = (share > BESIDE) & (share < 2 - BESIDE)
+        inside &= least <= self._boundary.tolerances.converged
         found = []
         for k in np.flatnonzero(inside & (least <= self._boundary.tolerances.touching)).tolist():
             which: Ints = np.array([k])

@@ -25,6 +25,9 @@ def seam_between(
         ]
     )
     inner = np.flatnonzero(clear)
+    if not len(inner) and first is not last:
+        plain = _halfway(plain, first.point, last.point)
+        inner = np.array([0])
     if not len(inner):
         inner = np.array([len(plain.points) // 2])
     a, b = inner[0], inner[-1]
@@ -41,6 +44,17 @@ def seam_between(
         ),
         ends,
     )
+
+
+def _halfway(seam: Seam, first: Array, last: Array) -> Seam:
+    """The point of a seam half way between its nodes, where all others are at one of them.
+
+    A chord so short is the seam to rounding.
+    """
+    row = len(seam.points) // 2
+    point = (first + last) / 2
+    radius = seam.radius[row : row + 1]
+    return Seam(point[None], radius, (seam.sites[row],), seam.feet[row : row + 1], seam.ends)
 
 
 def _before(points: Array, node: Node, size: float) -> Bools:

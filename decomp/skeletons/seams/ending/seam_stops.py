@@ -21,9 +21,9 @@ from decomp.skeletons.seams.ending.walls import (
     cross,
     gap_ahead,
 )
-from decomp.skeletons.seams.steps.following import advance
 from decomp.skeletons.seams.steps.points import SeamPoints
 from decomp.skeletons.seams.steps.states import State
+from decomp.skeletons.seams.steps.stepping import advance
 from decomp.skeletons.seams.steps.stretch import Stretch
 from decomp.vectors import Array, norm
 

@@ -16,7 +16,7 @@ from decomp.carriers.compiled_carriers import normal
 from decomp.kernels.compiled import inner, scalar
 from decomp.sites.site import Site, SiteKind
 from decomp.skeletons.balls.supports import SupportTable, support, tangent_at
-from decomp.skeletons.seams.steps.following import Track, advance
+from decomp.skeletons.seams.steps.stepping import Track, advance
 from decomp.vectors import Array, Ints
 
 ROUNDS = 80

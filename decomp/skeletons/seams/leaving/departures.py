@@ -53,6 +53,13 @@ def departures(
         found = _at(points, point, touching, ray, part * touching.radius)
         if found is not None:
             return found
+    if all(len(touching.sites[k]) == 1 for k in ray.contacts):
+        # the seam may be shorter than it is looked ahead: it starts at the point itself
+        which = [touching.sites[k][0] for k in ray.contacts]
+        feet = touching.feet[list(ray.contacts)]
+        state = points.state(which, point, feet, ray.direction)
+        if state is not None:
+            return [(ray.contacts, state)]
     raise GeometryError("the seams that leave {at} cannot be told apart", at=point)
 
 

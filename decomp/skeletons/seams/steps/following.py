@@ -7,15 +7,10 @@ every foot still on the boundary? A change between two points is narrowed down b
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf, sqrt
-
-import numpy as np
 
 from decomp.carriers.compiled_carriers import Triple
 from decomp.kernels.compiled import inner, scalar
-from decomp.kernels.records import Record
-from decomp.skeletons.balls.balance import balance
 from decomp.skeletons.balls.probing import (
     HOLDS,
     INTRUDED,
@@ -28,17 +23,14 @@ from decomp.skeletons.balls.probing import (
     nearest,
 )
 from decomp.skeletons.balls.supports import SupportTable, past_end, support
+from decomp.skeletons.seams.steps.dips import dip_on, only_touches
+from decomp.skeletons.seams.steps.stepping import Track, advance
 from decomp.vectors import Array, Ints
 
-FLAT = 1e-7
-"""Unit vectors that leave a plane by less than this lie in it."""
 FIRST = 1e-3
 """The first step, as a part of the size."""
 SHORTEST = 1e-9
 GROWTH = 1.6
-TURN = 0.9945
-"""Cosine of the largest turn in a step, 6 degrees."""
-RESIDUAL = 1e-12
 LEAST_PROGRESS = 1e-6
 """A step that fails past this part of the size is tried again, shorter."""
 CLOSE = 1e-15
@@ -52,138 +44,6 @@ LEAST_LOOK, LEAST_WAY = 1e-4, 1e-4
 PAST = 1e-9
 """A foot so far beyond its edge's end, as a part of the size, has left it."""
 FULL, STUCK, ENDED, CLOSED = range(3, 7)
-
-
-@dataclass(frozen=True, eq=False)
-class Track(Record):
-    """Room for the points of a seam with m contacts.
-
-    Args:
-        points: (n, 3).
-        radius: (n,).
-        tangents: (n, 3), in the sense of travel.
-        slopes: (n,), how the radius changes along them.
-        feet: (n * m, 3).
-        work: scratch (m + 3, 7).
-    """
-
-    points: Array
-    radius: Array
-    tangents: Array
-    slopes: Array
-    feet: Array
-    work: Array
-
-
-def track(contacts: int, length: int) -> Track:
-    """Room for `length` points."""
-    return Track(
-        np.empty((length, 3)),
-        np.empty(length),
-        np.empty((length, 3)),
-        np.empty(length),
-        np.empty((length * contacts, 3)),
-        np.empty((contacts + 3, 7)),
-    )
-
-
-@scalar
-def settle(
-    table: SupportTable,
-    which: Ints,
-    track: Track,
-    row: int,
-    x: float,
-    y: float,
-    z: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    size: float,
-    strict: bool,
-) -> bool:
-    """Put the point of the seam next to (x, y, z) into a row of a track.
-
-    Feet close by must stand in the row; (dx, dy, dz) is the sense of travel. If `strict`, the
-    contacts must define a curve there.
-    """
-    count = len(which)
-    work, first = track.work, row * count
-    for c in range(count):
-        if not abs(track.feet[first + c, 0]) < inf:
-            return False
-    x, y, z, radius, gap = balance(table, which, 0, count, track.feet, first, x, y, z, size, work)
-    if not gap <= RESIDUAL * size or radius <= 0.0:
-        return False
-    rows, least, second, best = count - 1, inf, inf, 0
-    for j in range(3):
-        square = 0.0
-        for k in range(rows):
-            square += work[k, j] * work[k, j]
-        if square < least:
-            least, second, best = square, least, j
-        elif square < second:
-            second = square
-    if strict and (second <= FLAT * FLAT or least > FLAT * FLAT):
-        return False
-    tx, ty, tz = work[rows, best], work[rows + 1, best], work[rows + 2, best]
-    if tx * dx + ty * dy + tz * dz < 0.0:
-        tx, ty, tz = -tx, -ty, -tz
-    slope = 0.0
-    for c in range(count):
-        slope += work[c, 4] * tx + work[c, 5] * ty + work[c, 6] * tz
-    track.points[row, 0], track.points[row, 1], track.points[row, 2] = x, y, z
-    track.tangents[row, 0], track.tangents[row, 1], track.tangents[row, 2] = tx, ty, tz
-    track.radius[row], track.slopes[row] = radius, slope / count
-    return True
-
-
-@scalar
-def advance(
-    table: SupportTable,
-    which: Ints,
-    track: Track,
-    here: int,
-    row: int,
-    step: float,
-    size: float,
-    strict: bool,
-) -> bool:
-    """Put the point of the seam a step ahead of row `here` into another row.
-
-    If `strict`, the contacts must define a curve there, which turns little on the way.
-    """
-    count = len(which)
-    for c in range(count):
-        for j in range(3):
-            track.feet[row * count + c, j] = track.feet[here * count + c, j]
-    dx, dy, dz = track.tangents[here, 0], track.tangents[here, 1], track.tangents[here, 2]
-    px, py, pz = track.points[here, 0], track.points[here, 1], track.points[here, 2]
-    good = settle(
-        table,
-        which,
-        track,
-        row,
-        px + step * dx,
-        py + step * dy,
-        pz + step * dz,
-        dx,
-        dy,
-        dz,
-        size,
-        strict,
-    )
-    if not good:
-        return False
-    wx, wy, wz = track.points[row, 0] - px, track.points[row, 1] - py, track.points[row, 2] - pz
-    length = sqrt(wx * wx + wy * wy + wz * wz)
-    # short steps are swamped by the rounding of the points
-    rounding = 1e-13 * size
-    if abs(length - abs(step)) > 0.5 * abs(step) + rounding:
-        return False
-    bend = track.tangents[row, 0] * dx + track.tangents[row, 1] * dy + track.tangents[row, 2] * dz
-    ahead = (wx * dx + wy * dy + wz * dz) * (1.0 if step >= 0.0 else -1.0)
-    return (bend >= TURN or not strict) and float(ahead) > 0.9 * length - rounding
 
 
 @inner
@@ -302,6 +162,10 @@ def follow(
             if high - low <= CLOSE * size or not low < length < high:
                 base = last
                 if low > 0.0 and advance(table, which, track, base, last + 1, low, size, True):
+                    dip = dip_on(table, probe, which, track, base, last + 1, low, size)
+                    if dip > 0.0:
+                        kind, failed, low, high = INTRUDED, False, 0.0, dip
+                        continue
                     last += 1
                     # where it began may be on the last bit before a change, too
                     if closable and last + leave > 3 and returns(track, last, home):
@@ -357,7 +221,9 @@ def follow(
                     rough = True
                     break
             elif q == 0:
-                if away < bound:
+                if away < bound and not (
+                    not narrowing and only_touches(probe, track, last, trial, count, length, size)
+                ):
                     change, contact = INTRUDED, -1
                     break
             elif away > bound or past_end(table, which[q - 1], *_foot(track, row)) > beyond:
@@ -375,6 +241,11 @@ def follow(
             if step < SHORTEST * size:
                 return last + 1, STUCK, -1
             continue
+        if change == HOLDS and not rough and not narrowing:
+            dip = dip_on(table, probe, which, track, last, trial, length, size)
+            if dip > 0.0:
+                kind, failed, narrowing, low, high = INTRUDED, False, True, 0.0, dip
+                continue
         if change != HOLDS:
             kind = change
             if not narrowing:

@@ -16,8 +16,8 @@ from decomp.skeletons.balls.loci import on_locus
 from decomp.skeletons.balls.probing import TOWARDS
 from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.balls.supports import support_table
-from decomp.skeletons.seams.steps.following import settle
 from decomp.skeletons.seams.steps.states import State
+from decomp.skeletons.seams.steps.stepping import settle
 from decomp.skeletons.seams.steps.stretch import Stretch
 from decomp.tolerance import ON_LOCUS
 from decomp.vectors import Array

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.skeletons.seams.steps.following import track
 from decomp.skeletons.seams.steps.states import Run, State
+from decomp.skeletons.seams.steps.stepping import track
 from decomp.vectors import norm
 
 SAME = 1e-10
