@@ -15,6 +15,7 @@ import numpy as np
 
 from decomp.boundary.topology import Convexity
 from decomp.errors import GeometryError
+from decomp.medial.foot_jumps import JUMP, Interval, jumping
 from decomp.medial.incidence import NEAR, Incidence
 from decomp.medial.locus_touches import touches
 from decomp.medial.normal_balls import try_radius
@@ -263,12 +264,12 @@ class TrimScanner:
     def _changes(
         self, curves: Sequence[NormalCurve], samples: Sequence[Sequence[TrimSample]]
     ) -> list[list[tuple[TrimSample, TrimSample]]]:
-        """For each curve the narrowest intervals in which the far contact changes."""
+        """For each curve the narrowest intervals in which the far contact, or its place, changes."""
         found: list[list[tuple[TrimSample, TrimSample]]] = [[] for _ in curves]
         rows = [without_ties(row) for row in samples]
         wide = [(k, a, b) for k, row in enumerate(rows) for a, b in pairwise(row)]
         for depth in range(HALVINGS + 1):
-            changing = [(k, a, b) for k, a, b in wide if a.far != b.far]
+            changing = self._changing(curves, wide)
             wide = []
             halved = []
             for k, a, b in changing:
@@ -283,14 +284,25 @@ class TrimScanner:
                 one = one_of(a, middle, b)
                 if one is None:
                     found[k].append((a, b))
+                elif a.far == b.far:
+                    wide += [(k, a, one), (k, one, b)]
                 else:
                     wide.append((k, one, b) if one.far == a.far else (k, a, one))
         for pairs in found:
             pairs.sort(key=lambda pair: pair[0].s)
         return found
 
+    def _changing(
+        self, curves: Sequence[NormalCurve], intervals: Sequence[Interval]
+    ) -> list[Interval]:
+        """Those intervals over curves of given numbers in which the far contact changes."""
+        jumps = jumping(self._incidence, curves, intervals).tolist()
+        return [
+            it for it, jump in zip(intervals, jumps, strict=True) if jump or it[1].far != it[2].far
+        ]
+
     def _middles(
-        self, curves: Sequence[NormalCurve], intervals: Sequence[tuple[int, TrimSample, TrimSample]]
+        self, curves: Sequence[NormalCurve], intervals: Sequence[Interval]
     ) -> list[TrimSample]:
         """The samples in the middle of intervals over curves of given numbers, in their order."""
         middle: dict[int, list[float]] = {}
@@ -306,7 +318,7 @@ class TrimScanner:
     def _change(self, curve: NormalCurve, low: TrimSample, high: TrimSample) -> float:
         """The exact parameter at which the far contact changes from `low` to `high`."""
         own = tuple(sorted(curve.sites))
-        jumps = float(norm(low.foot - high.foot)) > 1e-5 * self._size
+        jumps = float(norm(low.foot - high.foot)) > JUMP * self._size
         if jumps and own not in (low.far, high.far):
             return self._crossing(curve, low, high)
         return (low.s + high.s) / 2
