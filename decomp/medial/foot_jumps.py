@@ -63,10 +63,9 @@ def jumping(
     Where it moves fast, but does not jump, theirs are not suspect.
     """
     found = np.zeros(len(intervals), dtype=np.bool_)
-    two = _with_two_feet(incidence)
     rows, which = [], []
     for row, it in enumerate(intervals):
-        bent = [site for site in it.low.far if site in two]
+        bent = [site for site in it.low.far if _bent(incidence, site)]
         own = tuple(sorted(curves[it.curve].sites))
         if bent and it.low.far == it.high.far != own:
             rows.append(row)
@@ -90,14 +89,12 @@ def jumping(
     return found
 
 
-def _with_two_feet(incidence: Incidence) -> set[int]:
-    """The sites that can be as near in two places: bent edges, of a circle all or one."""
-    edges = incidence.boundary.edges
-    return {
-        number
-        for number, site in enumerate(incidence.sites)
-        if site.kind is SiteKind.EDGE and not isinstance(edges[site.index].curve, (Line, Circle))
-    }
+def _bent(incidence: Incidence, number: int) -> bool:
+    """Whether a site can be as near in two places: an edge that is bent, but no circle."""
+    site = incidence.sites[number]
+    if site.kind is not SiteKind.EDGE:
+        return False
+    return not isinstance(incidence.boundary.edges[site.index].curve, (Line, Circle))
 
 
 def _balls(
