@@ -70,15 +70,19 @@ class SheetSurface:
         """Points moved onto the surface (k, 3), and whether that succeeded (k,).
 
         Beside a seam at which an edge has two feet a point off the surface can be nearer to the one
-        that does not count where it is moved to. There the other one is taken, if that one counts.
+        that does not count where it is moved to. There the other one is taken, if that one counts
+        where it leads to, from the point itself or from where the first one has led to.
         """
         found = self._between(points, self._feet_near(points))
         if self._curved:
-            feet, others = self._nearest(found.points, found.feet)
-            rows = np.flatnonzero(found.converged & others)
-            again = self._between(points[rows], feet[rows])
-            good = again.converged & ~self._nearest(again.points, again.feet)[1]
-            found.points[rows[good]] = again.points[good]
+            first = np.array(found.points)
+            others, replaced = self._nearest(first, found.feet)
+            rows = np.flatnonzero(found.converged & replaced)
+            for start in (points, first):
+                again = self._between(start[rows], others[rows])
+                good = again.converged & ~self._nearest(again.points, again.feet)[1]
+                found.points[rows[good]] = again.points[good]
+                rows = rows[~good]
         return found.points, found.converged
 
     def _between(self, points: Array, feet: Array) -> Equidistant:

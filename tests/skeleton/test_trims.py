@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp import Block, Cylinder
+from decomp import Block, Cone, Cylinder
 from decomp.complex.model import LineKind
 from decomp.drafts import traced
 from decomp.medial.curve_elements import SeamCurve
 from decomp.medial.region_curves import RegionCurves
+from decomp.medial.sheet_surface import SheetSurface
 from decomp.medial.trim_changes import change
 from decomp.medial.trim_surfaces import strip
 from decomp.vectors import Array, Ints, norm
@@ -78,6 +79,31 @@ def test_trims_have_a_node_where_their_far_foot_jumps_along_one_edge(x: float) -
     assert gaps[at] <= 1e-10
     ending = [p for p in curves.pieces if at in (p.ends or ()) and p.kind is LineKind.TRIM]
     assert len(ending) == 2
+
+
+@pytest.mark.slow
+def test_sheets_beside_trims_that_jump_are_certified() -> None:
+    (region,) = decomp.skeleton(leaning(3.5)).regions
+    assert region.certificate.euler == 1
+
+
+def test_points_beside_a_seam_go_to_the_part_whose_foot_is_nearer() -> None:
+    """Both parts of the sheet between a wall and a slanted rod's ellipse meet in a crease."""
+    rod = Cone((2.03, -0.59, 2.26), 0.6, (2.92, 4.35, -1.38), 0.24, name="rod")
+    incidence = curves_of(Block((0, 0, 0), (3.14, 4.17, 2.97), name="base") | rod).incidence
+    number = {site.name: k for k, site in enumerate(incidence.sites) if site.region == 0}
+    pair = number["base.xmax"], number["base.zmin|rod.side@2"]
+    known = np.array([[2.611, 2.5998, 0.3973], [2.5926, 2.5296, 0.4039]])
+    surface = SheetSurface(incidence, pair, known, incidence.feet(pair, known))
+    beside = np.array([2.6015, 2.5683, 0.4089])
+    points = beside + np.random.default_rng(1).uniform(-0.03, 0.03, (300, 3))
+    placed = surface.place(points)
+    site = incidence.sites[pair[1]]
+    edge = incidence.boundary.edges[site.index].curve
+    ring = edge.point(np.linspace(*edge.domain, 2001))
+    nearest = norm(placed[:, None] - ring).min(axis=1)
+    assert 3.14 - placed[:, 0] == pytest.approx(nearest, abs=1e-5)
+    assert norm(surface.place(placed) - placed).max() <= 1e-12
 
 
 def test_a_seam_that_comes_back_to_its_node_has_other_feet_there() -> None:
