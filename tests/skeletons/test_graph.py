@@ -206,6 +206,19 @@ def test_seams_end_at_their_nodes_also_between_two_points() -> None:
     assert seam.points[:, 0].tolist() == [0.4, 1.0, 2.0, 3.0, 4.0]
 
 
+def test_seams_end_at_their_nodes_however_many_points_are_beside_them() -> None:
+    """Rounding led seven of nine points past the node, by less than a millionth of the size."""
+    _, graph = graph_of(SOLIDS["block"].make())
+    x = np.concatenate([[0.0, 1.0], 2.0 + 1e-7 * np.arange(1, 8)])
+    points = np.stack([x, 0 * x, 0 * x], axis=1)
+    start, end = (replace(graph.nodes[0], point=np.array([x, 0.0, 0.0])) for x in (-1.0, 2.0))
+    run = Run((0, 1, 2), points, np.ones(9), np.zeros((9, 3, 3)))
+    last = State(points[-1], 1.0, (0, 1, 2), run.feet[-1], np.array([1.0, 0, 0]), 0.0)
+    traced = Traced((run,), last, SeamEnd.SPLIT, -1, np.zeros(3))
+    seam = seam_between(traced, (0, 1), start, end, 1.0)
+    assert seam.points[:, 0].tolist() == [-1.0, 0.0, 1.0, 2.0]
+
+
 def test_similar_solids_have_similar_graphs() -> None:
     _, plain = graph_of(SOLIDS["through hole"].make())
     _, moved = graph_of(

@@ -8,10 +8,13 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp import Block
+from decomp import Block, Cone, Cylinder
+from decomp.complex.model import LineKind
+from decomp.skeletons.curves.curve_elements import SeamCurve
 from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.curves.trim_changes import change
 from decomp.skeletons.drafts import traced
+from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.skeletons.sheets.trim_surfaces import strip
 from decomp.vectors import Array, Ints, norm
 
@@ -49,6 +52,69 @@ def test_no_trim_of_planes_lies_on_a_locus() -> None:
     assert short
     for number in short:
         assert any(number in piece.over for piece in curves.pieces)
+
+
+def leaning(x: float) -> decomp.Solid:
+    """A plate with a boss that leans over and a step below it, whose edge is under the boss.
+
+    The boss' ellipse has its centre in (3.5, 2, 2), and 1 and hypot(1, 1/2) as semi-axes.
+    """
+    plate = Block((0, 0, 0), (7, 4, 2), name="plate")
+    boss = Cylinder((3, 2, 1), (5.5, 2, 6), 1, name="boss")
+    return (plate | boss) - Block((-1, -1, -1), (x + 1, 6, 1.5), name="step")
+
+
+@pytest.mark.parametrize("x", [3.5, 3.45])
+def test_trims_have_a_node_where_their_far_foot_jumps_along_one_edge(x: float) -> None:
+    """Over the middle of the step's edge both sides of the boss' ellipse are as near."""
+    curves = curves_of(leaning(x))
+    # the places of the ellipse x = 3.5 + a cos t, y = 2 + sin t that are nearest to (x, 2)
+    a2 = 1.25
+    cosine = (x - 3.5) * np.sqrt(a2) / (a2 - 1)
+    square = (3.5 + np.sqrt(a2) * cosine - x) ** 2 + 1 - cosine**2
+    # a ball on the step's edge, 1.5 below the ellipse: r^2 = square + (1.5 - r)^2
+    centre = np.array([x, 2, 0.5 + (square + 2.25) / 3])
+    gaps = norm(curves.nodes - centre)
+    at = int(np.argmin(gaps))
+    assert gaps[at] <= 1e-10
+    ending = [p for p in curves.pieces if at in (p.ends or ()) and p.kind is LineKind.TRIM]
+    assert len(ending) == 2
+
+
+@pytest.mark.slow
+def test_sheets_beside_trims_that_jump_are_certified() -> None:
+    (region,) = decomp.skeleton(leaning(3.5)).regions
+    assert region.certificate.euler == 1
+
+
+def test_points_beside_a_seam_go_to_the_part_whose_foot_is_nearer() -> None:
+    """Both parts of the sheet between a wall and a slanted rod's ellipse meet in a crease."""
+    rod = Cone((2.03, -0.59, 2.26), 0.6, (2.92, 4.35, -1.38), 0.24, name="rod")
+    incidence = curves_of(Block((0, 0, 0), (3.14, 4.17, 2.97), name="base") | rod).incidence
+    number = {site.name: k for k, site in enumerate(incidence.sites) if site.region == 0}
+    pair = number["base.xmax"], number["base.zmin|rod.side@2"]
+    known = np.array([[2.611, 2.5998, 0.3973], [2.5926, 2.5296, 0.4039]])
+    surface = SheetSurface(incidence, pair, known, incidence.feet(pair, known))
+    beside = np.array([2.6015, 2.5683, 0.4089])
+    points = beside + np.random.default_rng(1).uniform(-0.03, 0.03, (300, 3))
+    placed = surface.place(points)
+    site = incidence.sites[pair[1]]
+    edge = incidence.boundary.edges[site.index].curve
+    ring = edge.point(np.linspace(*edge.domain, 2001))
+    nearest = norm(placed[:, None] - ring).min(axis=1)
+    assert 3.14 - placed[:, 0] == pytest.approx(nearest, abs=1e-5)
+    assert norm(surface.place(placed) - placed).max() <= 1e-12
+
+
+def test_a_seam_that_comes_back_to_its_node_has_other_feet_there() -> None:
+    """A point beside the node is on the branch whose chord it is nearer to."""
+    t = np.linspace(0, 2 * pi, 9)
+    points = np.stack([np.cos(t), np.sin(t), 0 * t], axis=1)
+    points[-1] = points[0]
+    feet = np.arange(27.0).reshape(9, 3, 1).repeat(3, axis=2)
+    curve = SeamCurve(curves_of(Block((0, 0, 0), (1, 1, 1))).incidence, (0, 1, 2), points, feet)
+    leaving, coming = points[0] + 0.1 * (points[[1, -2]] - points[0])
+    assert (curve.feet_near(np.stack([leaving, coming])) == feet[[0, -1]]).all()
 
 
 def area(lower: Array, upper: Array, triangles: Ints) -> Array:

@@ -55,20 +55,34 @@ class SeamCurve:
         them is not found from the other's side: they are read off between known points.
         """
         known, feet = self.points[self._apart], self.feet[self._apart]
-        rows = nearest_rows(known, points)
+        rows = self._nearest(known, points)
         if len(known) < 2 or len(set(self.sites)) == len(self.sites):
             return np.asarray(feet[rows])
         found, least = np.array(feet[rows]), np.full(len(points), np.inf)
         for step in (-1, 0):
             first = np.clip(rows + step, 0, len(known) - 2)
-            start, way = known[first], known[first + 1] - known[first]
-            part = np.clip(dot(points - start, way) / np.maximum(dot(way, way), TINY), 0.0, 1.0)
-            off = norm(points - start - part[:, None] * way)
+            part, off = _on_chord(points, known[first], known[first + 1])
             nearer = off < least
             part = part[:, None, None]
             between = (1 - part) * feet[first] + part * feet[first + 1]
             found[nearer], least[nearer] = between[nearer], off[nearer]
         return found
+
+    def _nearest(self, known: Array, points: Array) -> Ints:
+        """The nearest of known points to each of given ones (k, 3).
+
+        The ends of a seam that comes back to its node are one point with other feet: that end is
+        taken which has the nearer chord beside it.
+        """
+        rows = nearest_rows(known, points)
+        last = len(known) - 1
+        if last < 2 or (known[0] != known[last]).any():
+            return rows
+        at = np.flatnonzero((rows == 0) | (rows == last))
+        _, first = _on_chord(points[at], known[0], known[1])
+        _, other = _on_chord(points[at], known[last], known[last - 1])
+        rows[at] = np.where(first <= other, 0, last)
+        return rows
 
     def feet_at(self, points: Array) -> Array:
         """The feet (k, m, 3) of points (k, 3) on the seam."""
@@ -90,6 +104,13 @@ class SeamCurve:
         if not good.any():
             raise GeometryError("the seam at {at} has contacts that are one", at=self.points[0])
         return good
+
+
+def _on_chord(points: Array, start: Array, end: Array) -> tuple[Array, Array]:
+    """How far along chords (0 to 1) the nearest places to points (k, 3) are, and how far away."""
+    way = end - start
+    part = np.clip(dot(points - start, way) / np.maximum(dot(way, way), TINY), 0.0, 1.0)
+    return part, norm(points - start - part[:, None] * way)
 
 
 def place_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Array:

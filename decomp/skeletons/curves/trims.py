@@ -21,6 +21,7 @@ from decomp.skeletons.balls import loci
 from decomp.skeletons.balls.balls import inscribed_balls
 from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.balls.loci import locus_gap
+from decomp.skeletons.curves.foot_jumps import JUMP, Interval, jumping
 from decomp.skeletons.curves.incidence import NEAR, Incidence
 from decomp.skeletons.curves.locus_touches import touches
 from decomp.skeletons.curves.normal_balls import try_radius
@@ -263,42 +264,57 @@ class TrimScanner:
     def _changes(
         self, curves: Sequence[NormalCurve], samples: Sequence[Sequence[TrimSample]]
     ) -> list[list[tuple[TrimSample, TrimSample]]]:
-        """For each curve the narrowest intervals in which the far contact changes."""
+        """For each curve the narrowest intervals in which the far contact or its place changes."""
         found: list[list[tuple[TrimSample, TrimSample]]] = [[] for _ in curves]
         rows = [without_ties(row) for row in samples]
-        wide = [(k, a, b) for k, row in enumerate(rows) for a, b in pairwise(row)]
+        wide = [Interval(k, a, b) for k, row in enumerate(rows) for a, b in pairwise(row)]
         for depth in range(HALVINGS + 1):
-            changing = [(k, a, b) for k, a, b in wide if a.far != b.far]
+            changing = self._changing(curves, wide)
             wide = []
             halved = []
-            for k, a, b in changing:
+            for it in changing:
+                a, b = it.low, it.high
                 if depth == HALVINGS or b.s - a.s <= 1e-15 * (abs(a.s) + abs(b.s)):
-                    found[k].append((a, b))
+                    found[it.curve].append((a, b))
                 else:
-                    halved.append((k, a, b))
-            for (k, a, b), middle in zip(halved, self._middles(curves, halved), strict=True):
+                    halved.append(it)
+            for it, middle in zip(halved, self._middles(curves, halved), strict=True):
+                a, b = it.low, it.high
                 if not ties(a, middle, b):
-                    wide += [(k, a, middle), (k, middle, b)]
+                    wide += it.halves(middle)
                     continue
                 one = one_of(a, middle, b)
                 if one is None:
-                    found[k].append((a, b))
+                    found[it.curve].append((a, b))
+                elif a.far == b.far:
+                    wide += it.halves(one)
                 else:
-                    wide.append((k, one, b) if one.far == a.far else (k, a, one))
+                    wide.append(it.halves(one)[one.far == a.far])
         for pairs in found:
             pairs.sort(key=lambda pair: pair[0].s)
         return found
 
+    def _changing(
+        self, curves: Sequence[NormalCurve], intervals: Sequence[Interval]
+    ) -> list[Interval]:
+        """Those intervals in which the far contact, or its place, may change."""
+        jumps = jumping(self._incidence, curves, intervals).tolist()
+        return [
+            it
+            for it, jump in zip(intervals, jumps, strict=True)
+            if jump or it.low.far != it.high.far
+        ]
+
     def _middles(
-        self, curves: Sequence[NormalCurve], intervals: Sequence[tuple[int, TrimSample, TrimSample]]
+        self, curves: Sequence[NormalCurve], intervals: Sequence[Interval]
     ) -> list[TrimSample]:
-        """The samples in the middle of intervals over curves of given numbers, in their order."""
+        """The samples in the middle of intervals, in their order."""
         middle: dict[int, list[float]] = {}
         place_of = []
-        for k, a, b in intervals:
-            listed = middle.setdefault(k, [])
-            place_of.append((k, len(listed)))
-            listed.append((a.s + b.s) / 2)
+        for it in intervals:
+            listed = middle.setdefault(it.curve, [])
+            place_of.append((it.curve, len(listed)))
+            listed.append((it.low.s + it.high.s) / 2)
         rows = self._at([curves[k] for k in middle], [np.array(s) for s in middle.values()])
         at = dict(zip(middle, rows, strict=True))
         return [at[k][i] for k, i in place_of]
@@ -306,7 +322,7 @@ class TrimScanner:
     def _change(self, curve: NormalCurve, low: TrimSample, high: TrimSample) -> float:
         """The exact parameter at which the far contact changes from `low` to `high`."""
         own = tuple(sorted(curve.sites))
-        jumps = float(norm(low.foot - high.foot)) > 1e-5 * self._size
+        jumps = float(norm(low.foot - high.foot)) > JUMP * self._size
         if jumps and own not in (low.far, high.far):
             return self._crossing(curve, low, high)
         return (low.s + high.s) / 2

@@ -17,7 +17,7 @@ def seam_between(
 ) -> Seam:
     """A seam with its nodes' points put at its ends."""
     plain = seam_of(traced, ends)
-    half = len(plain.points) // 2
+    half = _on_first_half(plain.points)
     clear = np.concatenate(
         [
             _before(plain.points[:half][::-1], first, size)[::-1],
@@ -29,7 +29,7 @@ def seam_between(
         plain = _halfway(plain, first.point, last.point)
         inner = np.array([0])
     if not len(inner):
-        inner = np.array([len(plain.points) // 2])
+        inner = np.array([min(half, len(plain.points) - 1)])
     a, b = inner[0], inner[-1]
     return Seam(
         np.concatenate([first.point[None], plain.points[inner], last.point[None]]),
@@ -55,6 +55,15 @@ def _halfway(seam: Seam, first: Array, last: Array) -> Seam:
     point = (first + last) / 2
     radius = seam.radius[row : row + 1]
     return Seam(point[None], radius, (seam.sites[row],), seam.feet[row : row + 1], seam.ends)
+
+
+def _on_first_half(points: Array) -> int:
+    """How many of points (k, 3) along a curve are on its first half, by length.
+
+    They crowd at an end beside which steps become short.
+    """
+    along = np.concatenate([[0.0], np.cumsum(norm(np.diff(points, axis=0)))])
+    return int(np.count_nonzero(2 * along <= along[-1]))
 
 
 def _before(points: Array, node: Node, size: float) -> Bools:

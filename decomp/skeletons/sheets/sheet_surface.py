@@ -10,7 +10,8 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
-from decomp.skeletons.balls.equidistance import placed_between
+from decomp.sites.site import SiteKind
+from decomp.skeletons.balls.equidistance import Equidistant, placed_between
 from decomp.skeletons.balls.fields import Field, site_fields
 from decomp.skeletons.balls.loci import on_locus
 from decomp.skeletons.balls.supports import SEARCHED, support_table
@@ -66,16 +67,29 @@ class SheetSurface:
         return placed
 
     def try_place(self, points: Array) -> tuple[Array, Bools]:
-        """Points moved onto the surface (k, 3), and whether that succeeded (k,)."""
-        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        found = placed_between(
-            self.incidence.boundary,
-            self.incidence.sites,
-            which,
-            points,
-            self._feet_near(points),
-        )
+        """Points moved onto the surface (k, 3), and whether that succeeded (k,).
+
+        Beside a seam at which an edge has two feet a point off the surface can be nearer to the one
+        that does not count where it is moved to. There the other one is taken, if that one counts
+        where it leads to, from the point itself or from where the first one has led to.
+        """
+        found = self._between(points, self._feet_near(points))
+        if self._curved:
+            first = np.array(found.points)
+            others, replaced = self._nearest(first, found.feet)
+            rows = np.flatnonzero(found.converged & replaced)
+            for start in (points, first):
+                again = self._between(start[rows], others[rows])
+                good = again.converged & ~self._nearest(again.points, again.feet)[1]
+                found.points[rows[good]] = again.points[good]
+                rows = rows[~good]
         return found.points, found.converged
+
+    def _between(self, points: Array, feet: Array) -> Equidistant:
+        """Points moved to where they are as near to both sites, found from feet (k, 2, 3)."""
+        it = self.incidence
+        which: Ints = np.tile(np.array(self.sites), (len(points), 1))
+        return placed_between(it.boundary, it.sites, which, points, feet)
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3): the difference of the distances' gradients.
@@ -137,16 +151,36 @@ class SheetSurface:
         """
         if not self._curved:
             return np.asarray(self.feet[np.zeros(len(points), dtype=np.int64)])
-        it = self.incidence
-        feet = self.feet[self._tree.query(points)[1]]
+        return self._nearest(points, self.feet[self._tree.query(points)[1]])[0]
+
+    def _nearest(self, points: Array, feet: Array) -> tuple[Array, Bools]:
+        """Feet (k, 2, 3) with those that are not the nearest on their edge replaced, and where.
+
+        At a vertex that both sites share the other one is as near: it does not count.
+        """
+        it, near = self.incidence, CLEAR * self.incidence.boundary.diagonal
         other = it.feet(self.sites, points)
+        found, replaced = np.array(feet), np.zeros(len(points), dtype=np.bool_)
         for column, site in enumerate(self.sites):
             which: Ints = np.full(len(points), site, dtype=np.int64)
             known = site_fields(it.boundary, it.sites, which, points, feet[:, column])
             gap = known.distance - norm(points - other[:, column])
-            nearer = gap > CLEAR * it.boundary.diagonal
-            feet[nearer, column] = other[nearer, column]
-        return np.asarray(feet)
+            nearer = gap > near
+            for vertex in self._shared:
+                nearer &= norm(other[:, column] - vertex) > near
+            found[nearer, column] = other[nearer, column]
+            replaced |= nearer
+        return found, replaced
+
+    @cached_property
+    def _shared(self) -> Array:
+        """The vertices (k, 3) at the ends of both sites, if these are edges."""
+        boundary, ends = self.incidence.boundary, []
+        for site in (self.incidence.sites[number] for number in self.sites):
+            edge = boundary.edges[site.index] if site.kind is SiteKind.EDGE else None
+            ends.append(set(edge.vertices or ()) if edge is not None else set())
+        shared = sorted(ends[0] & ends[1])
+        return np.array([boundary.vertices[v].point for v in shared]).reshape(-1, 3)
 
     @cached_property
     def _curved(self) -> bool:
