@@ -10,7 +10,6 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
-from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.equidistance import Equidistant, placed_between
 from decomp.skeletons.balls.fields import Field, site_fields
 from decomp.skeletons.balls.loci import on_locus
@@ -166,21 +165,9 @@ class SheetSurface:
             known = site_fields(it.boundary, it.sites, which, points, feet[:, column])
             gap = known.distance - norm(points - other[:, column])
             nearer = gap > near
-            for vertex in self._shared:
-                nearer &= norm(other[:, column] - vertex) > near
             found[nearer, column] = other[nearer, column]
             replaced |= nearer
         return found, replaced
-
-    @cached_property
-    def _shared(self) -> Array:
-        """The vertices (k, 3) at the ends of both sites, if these are edges."""
-        boundary, ends = self.incidence.boundary, []
-        for site in (self.incidence.sites[number] for number in self.sites):
-            edge = boundary.edges[site.index] if site.kind is SiteKind.EDGE else None
-            ends.append(set(edge.vertices or ()) if edge is not None else set())
-        shared = sorted(ends[0] & ends[1])
-        return np.array([boundary.vertices[v].point for v in shared]).reshape(-1, 3)
 
     @cached_property
     def _curved(self) -> bool:
