@@ -19,9 +19,9 @@ from decomp.vectors import Array, Bools, Ints, dot, norm
 
 SHARE = 0.25
 """Chords may stand out from their curves by this part of the gap to another one."""
-LONGER = 2.0
-"""Chords may be so many times as long as those of the other curve to which they are nearer than
-these are long: triangles between both have no area else."""
+LONGER, THIN = 2.0, 1e-6
+"""Chords may be so many times as long as those of the other curve beside them, unless the gap is
+wider than this part of their length: triangles between both have no area else."""
 ROUNDS = 24
 """So often chords are halved at most."""
 ASIDE = 0.5
@@ -77,7 +77,7 @@ def _parted(
         gap = _gaps(one, other, pairs)
         pairs, gap = pairs[gap < reach], gap[gap < reach]
         sides = norm(np.diff(one, axis=0))[pairs[:, 0]], norm(np.diff(other, axis=0))[pairs[:, 1]]
-        long = [(gap < b) & (a > LONGER * b) for a, b in (sides, sides[::-1])]
+        long = [(gap < THIN * a) & (a > LONGER * b) for a, b in (sides, sides[::-1])]
         one, more = _halved(curves[0], one, pairs[:, 0], gap, long[0], rounding)
         other, others = _halved(curves[1], other, pairs[:, 1], gap, long[1], rounding)
         if not (more or others):
