@@ -10,7 +10,9 @@ import pytest
 import decomp
 from decomp import Block, Cone, Cylinder
 from decomp.complex.model import LineKind
-from decomp.skeletons.curves.curve_elements import SeamCurve
+from decomp.curves.hyperbola import Hyperbola
+from decomp.sites.site import SiteKind
+from decomp.skeletons.curves.curve_elements import SeamCurve, TrimCurve
 from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.curves.trim_changes import change
 from decomp.skeletons.drafts import traced
@@ -168,3 +170,24 @@ def test_single_roots_stay() -> None:
 
     assert change(two, 1.0 - 1e-9, 1.0 + 1e-9, 6.28, 10.0) == pytest.approx(1.0, abs=1e-12)
     assert change(sin, 3.14159, 3.1416, 6.28, 10.0) == pytest.approx(pi, abs=1e-12)
+
+
+def test_trims_touch_the_nearer_leg() -> None:
+    """A cone laid into a block's floor: a ball between the legs of its edge touches the nearer."""
+    block = Block((0, 0, 0), (3, 4, 3), name="base")
+    curves = curves_of(block | decomp.Cone((-0.6, 1.9, 0.45), 0.6, (5.6, 1.9, 0.45), 0.24))
+    trims = [p.element for p in curves.pieces if isinstance(p.element, TrimCurve)]
+    edges = curves.incidence.boundary.edges
+    checked = 0
+    for trim in trims:
+        site = curves.incidence.sites[trim.far]
+        if site.kind is not SiteKind.EDGE or not isinstance(edges[site.index].curve, Hyperbola):
+            continue
+        s = trim.start + (trim.end - trim.start) * np.linspace(0.0, 1.0, 202)[1:-1]
+        centres = trim.at(s, np.full(len(s), norm(trim.points - trim.feet).mean()))
+        edge = edges[site.index]
+        places = edge.curve.point(np.linspace(edge.start, edge.end, 20_001))
+        nearest = norm(centres[:, None] - places).min(axis=1)
+        assert norm(centres - trim.over.feet(s)) == pytest.approx(nearest, abs=1e-6)
+        checked += 1
+    assert checked

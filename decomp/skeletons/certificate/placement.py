@@ -96,8 +96,27 @@ def _sheet_error(evidence: Evidence, sheet: Sheet, vertices: Ints) -> Array:
             np.where(np.abs(each[rough] - nearest) <= MERGED, nearest, each[rough])
             for each in (first, second)
         )
+    else:
+        for number, each in zip(sheet.sites, (first, second), strict=True):
+            _measure_whole(evidence, number, points, vertices, each)
     off = np.abs(np.stack([first, second]) - evidence.radius[vertices]).max(axis=0)
     return np.asarray(np.maximum(off, np.abs(first - second)))
+
+
+def _measure_whole(
+    evidence: Evidence, number: int, points: Array, vertices: Ints, distance: Array
+) -> None:
+    """Replace distances (k,) from an edge that are not those of its nearest places.
+
+    An edge is as near to a point of an axis that it winds about on several legs, and on the side
+    that counts another leg may end a little farther away.
+    """
+    site = evidence.sites[number]
+    rough = np.flatnonzero(distance > evidence.radius[vertices] + CREPT)
+    if site.kind is SiteKind.EDGE and len(rough):
+        edge = evidence.boundary.edges[site.index]
+        nearest = _nearest_of_edge(edge, points[rough], np.zeros((len(rough), 3)))
+        distance[rough] = np.minimum(distance[rough], norm(nearest - points[rough]))
 
 
 def _feet(evidence: Evidence, sheet: Sheet, number: int, points: Array, towards: Array) -> Array:

@@ -12,8 +12,10 @@ import numpy as np
 from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.skeletons.balls.equidistance import Equidistant, equidistant
+from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
-from decomp.skeletons.curves.normal_balls import solve_radius, try_radius
+from decomp.skeletons.curves.normal_balls import least_radius, solve_radius, try_radius
 from decomp.skeletons.curves.normal_curves import NormalCurve
 from decomp.skeletons.curves.reflexive_loci import Locus
 from decomp.vectors import Array, Bools, Ints, dot, nearest_rows, norm
@@ -238,7 +240,18 @@ class TrimCurve:
         q, n = self.over.feet(s), self.over.directions(s)
         feet = self.feet[nearest_rows(self.points, q + guess[:, None] * n)]
         r = solve(self.incidence, self.over, self.far, s, feet, guess)
+        if self._wells is not None:
+            r = least_radius(self.incidence, self.over, self.far, self._wells, s, r)
         return np.asarray(q + r[:, None] * n)
+
+    @cached_property
+    def _wells(self) -> EdgeWells | None:
+        """Of the far site, if it is an edge that can be as near in several places."""
+        it = self.incidence
+        table = support_table(it.boundary, it.sites)
+        if table.kinds[self.far] not in SEARCHED:
+            return None
+        return EdgeWells(it.boundary.edges[it.sites[self.far].index])
 
 
 @dataclass(frozen=True, eq=False)

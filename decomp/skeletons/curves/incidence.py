@@ -17,7 +17,11 @@ import numpy as np
 from decomp.boundary.topology import Convexity, Edge, RegionBoundary
 from decomp.sites.site import Site, SiteKind
 from decomp.skeletons.balls.fields import edge_foot, site_fields
-from decomp.vectors import Array, Bools, cross, dot, nearest_rows, norm
+from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.curves.edge_wells import EdgeWells
+from decomp.skeletons.curves.legs import legs
+from decomp.tolerance import CONVERGED
+from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
 NEAR = 1e-8
 """Feet nearer to an edge or vertex than this part of the region's diagonal are on it."""
@@ -83,9 +87,10 @@ class Incidence:
     def feet(self, sites: Sequence[int], points: Array) -> Array:
         """Feet (k, m, 3) of points (k, 3) on m sites each; on edges, near their nearest chords.
 
-        Where that leads past an edge's end the foot is near the nearest of its other samples that
-        are nearer than their neighbours. An edge that stands twice among the sites has two feet,
-        unless they have run together.
+        Of several legs of a curved edge that are about as near the nearest one counts. Where a
+        chord leads past an edge's end the foot is near the nearest of its other samples that are
+        nearer than their neighbours. An edge that stands twice among the sites has two feet, unless
+        they have run together.
         """
         found = np.empty((len(points), len(sites), 3))
         for column, site in enumerate(sites):
@@ -103,7 +108,29 @@ class Incidence:
                 past = np.flatnonzero(_past_ends(samples, found[:, column], NEAR * self._size))
                 inner, known = _inner_guess(samples, points[past])
                 found[past[known], column] = self._feet(site, points[past[known]], inner[known])
+            if support_table(self.boundary, self.sites).kinds[site] in SEARCHED:
+                self._to_nearest_leg(site, points, found[:, column])
         return found
+
+    def _to_nearest_leg(self, site: int, points: Array, feet: Array) -> None:
+        """Replace those of feet (k, 3) on a curved edge that others of its places are nearer than.
+
+        Where an edge keeps its distance over a long way Newton's method leaves the place; a foot
+        that is farther away than a sample is none.
+        """
+        edge = self.boundary.edges[self.sites[site].index]
+        slack = CONVERGED * self._size
+        rows, legs_of = legs(edge.samples, edge.closed, points)
+        tried = self._feet(site, points[rows], edge.samples[legs_of])
+        if not edge.closed:
+            kept = ~_past_ends(edge.samples, tried, NEAR * self._size)
+            rows, tried = rows[kept], tried[kept]
+        _keep_nearest(points, feet, rows, tried, slack)
+        nearest = norm(edge.samples[nearest_rows(edge.samples, points)] - points)
+        lost = np.flatnonzero(~(norm(feet - points) <= nearest + slack))
+        if len(lost):
+            rows, tried = EdgeWells(edge).near(points[lost])
+            _keep_nearest(points, feet, lost[rows], tried, slack)
 
     def _feet(self, site: int, points: Array, guess: Array) -> Array:
         which = np.full(len(points), site, dtype=np.int64)
@@ -217,6 +244,15 @@ class Incidence:
 def angle_between(a: Array, b: Array, axis: Array) -> Array:
     """Angle (...) from a to b about unit `axis`, in (-pi, pi]."""
     return np.arctan2(dot(cross(a, b), axis), dot(a, b))
+
+
+def _keep_nearest(points: Array, feet: Array, rows: Ints, tried: Array, slack: float) -> None:
+    """Replace feet (k, 3) of points by those tried for points (m,) that are nearer by a slack."""
+    away = norm(tried - points[rows])
+    for k in np.argsort(-away, kind="stable"):
+        row = rows[k]
+        if not away[k] >= float(norm(feet[row] - points[row])) - slack:
+            feet[row] = tried[k]
 
 
 def _past_ends(samples: Array, feet: Array, slack: float) -> Bools:

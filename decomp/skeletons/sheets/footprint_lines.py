@@ -13,7 +13,7 @@ import numpy as np
 
 from decomp.complex.footprints.domain_base import Domain
 from decomp.curves.base import Curve
-from decomp.skeletons.sheets.edge_wells import EdgeWells
+from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.vectors import Array, Ints, norm
 
 SLACK = 1e-8

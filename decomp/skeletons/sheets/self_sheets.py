@@ -16,11 +16,11 @@ from decomp.complex.footprints.domain_edges import even_strip
 from decomp.complex.model import SurfaceElement
 from decomp.complex.plane.planar import Triangulation
 from decomp.sites import SiteIndex
+from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.rim_curve import RimCurve
 from decomp.skeletons.sheets.component_votes import MissingCurveError, incentres, kept_components
 from decomp.skeletons.sheets.drawn_sheets import DrawnCurves, Footprint, SheetPart, facing
-from decomp.skeletons.sheets.edge_wells import EdgeWells
 from decomp.skeletons.sheets.footprint_lines import FootprintLines, drawn_lines
 from decomp.skeletons.sheets.mirror_plane import MirrorPlane
 from decomp.skeletons.sheets.plane_sheets import PlaneSheets

@@ -13,9 +13,9 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.skeletons.balls.fields import site_fields
+from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.rim_curve import RimCurve
-from decomp.skeletons.sheets.edge_wells import EdgeWells
 from decomp.tolerance import CONVERGED
 from decomp.vectors import Array, Bools, Ints, dot, norm
 

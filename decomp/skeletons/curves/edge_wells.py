@@ -90,6 +90,19 @@ class EdgeWells:
             result.append(self._different(np.sort(t[near]), 2 * self._spacing))
         return result
 
+    def near(self, points: Array) -> tuple[Ints, Array]:
+        """The places inside the edge that may be nearest to points (k, 3).
+
+        Returns:
+            the point (m,) of each, and the place (m, 3).
+        """
+        row, sample = self._wells(points)
+        if not self._edge.closed:
+            inner = (sample > 0) & (sample < len(self.t) - 1)
+            row, sample = row[inner], sample[inner]
+        t = self.bottom(points[row], sample)
+        return row, self._edge.curve.point(self._edge.curve.wrapped(t))
+
     def basins(self, points: Array, t: Array) -> Ints:
         """The samples (k, 2) between which the distance from points (k, 3) falls to places t (k,).
 
