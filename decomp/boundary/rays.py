@@ -16,12 +16,13 @@ import numpy as np
 from decomp.boundary.edges import RawEdge
 from decomp.boundary.loops import HalfEdge, LoopSet
 from decomp.boundary.member import Member
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Cone, Cylinder, EllipticCylinder, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.csg.extents import overlap
 from decomp.curves import crossing_candidates, crossings
 from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
+from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
@@ -103,22 +104,15 @@ class Walker:
         """The ray that leads away from `point` towards the outermost loop; None on a torus."""
         carrier = self.member.form.carriers[self.loops.carrier]
         span = (0.0, 4 * self.reach)
-        match carrier:
-            case Plane():
-                return Line(point, perpendicular(carrier.normal_vector), domain=span)
-            case Cylinder():
-                return Line(point, carrier.axis, domain=span)
-            case Cone():
-                away = point - carrier.apex
-                if float(norm(away)) == 0.0:
-                    return None
-                return Line(point, away / norm(away), domain=span)
-            case Sphere():
-                x = (point - carrier.centre) / carrier.radius
-                y = self.pole - (self.pole @ x) * x
-                length = float(norm(y))
-                side = y / length if length > 1e-12 else perpendicular(x)
-                return Circle(carrier.centre, x, side, carrier.radius)
+        ruling = carrier.ruling(point)
+        if ruling is not None:
+            return Line(point, ruling, domain=span)
+        if isinstance(carrier, Sphere):
+            x = (point - carrier.centre) / carrier.radius
+            y = self.pole - (self.pole @ x) * x
+            length = float(norm(y))
+            side = y / length if length > 1e-12 else perpendicular(x)
+            return Circle(carrier.centre, x, side, carrier.radius)
         return None
 
     def clear_of_vertices(self, point: Array) -> Array:
@@ -157,11 +151,18 @@ class Walker:
             case Sphere():
                 out = (point - carrier.centre) / carrier.radius
                 side = Circle(carrier.centre, out, across, carrier.radius)
+            case EllipticCylinder():
+                height = (point - carrier.point) @ carrier.axis
+                centre = carrier.point + height * carrier.axis
+                side = Ellipse(centre, carrier.x, carrier.y, carrier.a, carrier.b)
             case _:
                 side = Line(point, across, domain=(0.0, 4 * self.reach))
-        low, high = side.domain
-        first = min((t for t, _ in self._cuts(side) if t - low > 1e-9 * (high - low)), default=high)
-        return side.point(np.array(low + fraction * (first - low)))
+        start = float(side.parameter(point))
+        gaps = (
+            (t - start) % side.period if side.closed else t - start for t, _ in self._cuts(side)
+        )
+        gap = min((gap for gap in gaps if gap > 1e-9 * side.period), default=side.period)
+        return side.point(side.wrapped(np.array(start + fraction * gap)))
 
     def _vertex_gap(self, ray: Curve) -> float:
         """Least distance of the ends of edges from a ray; infinite where there are none."""
@@ -200,16 +201,7 @@ class Walker:
     def height(self, points: Array) -> Array:
         """How far up points lie in the sense of `upward`."""
         carrier = self.member.form.carriers[self.loops.carrier]
-        match carrier:
-            case Plane():
-                return np.asarray(points @ perpendicular(carrier.normal_vector))
-            case Cylinder():
-                return np.asarray(points @ carrier.axis)
-            case Cone():
-                return norm(points - carrier.apex)
-            case Sphere():
-                return np.asarray(points @ self.pole)
-        return np.zeros(len(points))
+        return points @ self.pole if isinstance(carrier, Sphere) else carrier.rise(points)
 
     def first_loop(self, ray: Curve, from_edge: bool) -> int | None:
         """The loop that ends the face into which the ray leads.

@@ -1,4 +1,4 @@
-"""The five carriers as compiled scalar kernels: signed distance, foot, normal.
+"""The carriers as compiled scalar kernels: signed distance, foot, normal.
 
 Same formulas as `decomp.carriers`, for one carrier and one point at a time. A carrier is a row
 of a `CarrierTable`; points and vectors are three floats.
@@ -12,14 +12,16 @@ from math import hypot, inf, sqrt
 
 import numpy as np
 
-from decomp.carriers import Carrier
+from decomp.carriers.base import ROW, Carrier
+from decomp.carriers.compiled_ellipse import elliptic_distance, elliptic_foot, elliptic_normal
+from decomp.carriers.kinds import codes_of
 from decomp.kernels.compiled import inlined, inner
 from decomp.kernels.records import Record
 from decomp.vectors import Array, Ints
 
 Triple = tuple[float, float, float]
 
-PLANE, SPHERE, CYLINDER, CONE, TORUS = range(5)
+PLANE, SPHERE, CYLINDER, CONE, TORUS, ELLIPTIC_CYLINDER = range(6)
 TINY = 1e-300
 ON_AXIS = 1e-30
 """Square of the angle at the reference point below which a point counts as on the axis."""
@@ -27,16 +29,20 @@ ON_AXIS = 1e-30
 
 @dataclass(frozen=True, eq=False)
 class CarrierTable(Record):
-    """Carriers as arrays: `codes` (n,) and `packed` (n, 8), see `Carrier.packed`."""
+    """Carriers as arrays: `codes` (n,) and `packed` (n, ROW), see `Carrier.packed`."""
 
     codes: Ints
     packed: Array
 
 
 def carrier_table(carriers: Sequence[Carrier]) -> CarrierTable:
-    """Lay out carriers for the kernels."""
-    codes = np.array([c.code for c in carriers], dtype=np.int64)
-    packed = np.array([c.packed() for c in carriers], dtype=np.float64).reshape(-1, 8)
+    """Lay out carriers for the kernels, which trust their codes.
+
+    Raises:
+        TypeError: a carrier is of an unknown kind.
+    """
+    codes = codes_of(carriers)
+    packed = np.array([c.packed() for c in carriers], dtype=np.float64).reshape(-1, ROW)
     return CarrierTable(codes, packed)
 
 
@@ -93,6 +99,8 @@ def signed_distance(table: CarrierTable, c: int, x: float, y: float, z: float) -
     if code == SPHERE:
         vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
         return float(sqrt(vx * vx + vy * vy + vz * vz) - packed[c, 6])
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_distance(packed, c, x, y, z)
     height, rho = axial(packed, c, x, y, z)
     if code == CYLINDER:
         return float(rho - packed[c, 6])
@@ -117,6 +125,8 @@ def normal(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
         if length == 0.0:
             return 0.0, 0.0, 1.0
         return vx / length, vy / length, vz / length
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_normal(packed, c, x, y, z)
     ux, uy, uz = radial(packed, c, x, y, z)
     if code == CYLINDER:
         return ux, uy, uz
@@ -145,6 +155,8 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
         nx, ny, nz = normal(table, c, x, y, z)
         r = packed[c, 6]
         return px + r * nx, py + r * ny, pz + r * nz
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_foot(packed, c, x, y, z)
     ux, uy, uz = radial(packed, c, x, y, z)
     height, rho = axial(packed, c, x, y, z)
     if code == CYLINDER:
@@ -168,8 +180,8 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
 def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radius: float) -> float:
     """How far from the foot of a point the feet of points within `radius` of it can be.
 
-    Projection to a convex body does not spread feet. From inside a circle of radius r, at distance
-    rho from its centre, it spreads them by r / rho at most.
+    Projection to a convex body does not spread feet of points outside. From inside a circle of
+    radius r, at distance rho from its centre, it spreads them by r / rho at most.
     """
     packed, code = table.packed, table.codes[c]
     if code == PLANE:
@@ -177,6 +189,8 @@ def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radiu
     if code == SPHERE:
         vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
         clear = sqrt(vx * vx + vy * vy + vz * vz) - radius
+    elif code == ELLIPTIC_CYLINDER:
+        return radius if elliptic_distance(packed, c, x, y, z) >= radius else inf
     elif code == CYLINDER:
         clear = axial(packed, c, x, y, z)[1] - radius
     else:

@@ -15,7 +15,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Plane
+from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Plane
 from decomp.curves.base import Curve
 from decomp.curves.newton import cross_direction, onto_pair
 from decomp.tolerance import SINGULAR
@@ -159,7 +159,7 @@ class TracedCurve(Curve):
 def _kind(a: Carrier, b: Carrier) -> str:
     """What the curve is called: conics too long for closed form are traced, but stay conics."""
     for plane, other in ((a, b), (b, a)):
-        if isinstance(plane, Plane) and isinstance(other, Cylinder):
+        if isinstance(plane, Plane) and isinstance(other, (Cylinder, EllipticCylinder)):
             return "ellipse"
         if isinstance(plane, Plane) and isinstance(other, Cone):
             steep = abs(float(plane.normal_vector @ other.axis))

@@ -1,6 +1,6 @@
 """Carriers laid out flat: coordinates (u, v) that run counterclockwise seen from their outside.
 
-Lengths are kept where that can be done (plane, cylinder), else angles (sphere, cone without its
+Lengths are kept where that can be done (plane, cylinders), else angles (sphere, cone without its
 apex), else one of the two directions (cone with its apex, torus).
 """
 
@@ -12,8 +12,9 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
+from decomp.carriers.ellipse_arc import arc_angle, arc_length, perimeter
 from decomp.complex.plane.planar import PLANE, Period
 from decomp.errors import GeometryError
 from decomp.vectors import Array, dot, frame
@@ -78,6 +79,26 @@ class CylinderChart(Chart):
         c = self.carrier
         radial = _radial(uv[..., 0] / c.radius, c.axis)
         return np.asarray(c.point + c.radius * radial + uv[..., 1:] * c.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class EllipticCylinderChart(Chart):
+    """(length of the section from its major semi-axis, height): the cylinder unrolled."""
+
+    carrier: EllipticCylinder
+
+    @property
+    def period(self) -> Period:
+        return perimeter(self.carrier.a, self.carrier.b), None
+
+    def to_plane(self, points: Array) -> Array:
+        c = self.carrier
+        along = arc_length(c.angles(points), c.a, c.b)
+        return np.stack([along, dot(points - c.point, c.axis)], axis=-1)
+
+    def to_space(self, uv: Array) -> Array:
+        c = self.carrier
+        return c.at(arc_angle(uv[..., 0], c.a, c.b), uv[..., 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,6 +224,8 @@ def chart_of(
         return PlaneChart(carrier.point, *frame(carrier.normal_vector))
     if isinstance(carrier, Cylinder):
         return CylinderChart(carrier)
+    if isinstance(carrier, EllipticCylinder):
+        return EllipticCylinderChart(carrier)
     if isinstance(carrier, Cone):
         return ConeChart(carrier) if apex else ConeStripChart(carrier, slant)
     if isinstance(carrier, Torus):
