@@ -268,8 +268,8 @@ def of_carrier(carrier: Carrier) -> CarrierSite:
         values = exact(carrier.major), exact(carrier.minor)
         return TorusSite(_given(carrier.centre), _given(carrier.axis), *values)
     raise InputError(
-        f"{carrier.kind}: Voronoi surfaces of such a face are not known; sheets beside it are found "
-        "by sampling ('--method sampled'), and '--cells none' makes a mesh without them"
+        f"{carrier.kind}: Voronoi surfaces of such a face are not known; sheets beside it are "
+        "found by sampling ('--method sampled'), and '--cells none' makes a mesh without them"
     )
 
 

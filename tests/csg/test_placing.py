@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import decomp
-from decomp.carriers.base import ROW
 from decomp import similarity
+from decomp.carriers.base import ROW
 from decomp.csg.placing import AT_ORIGIN, Placing, placing_of
 from decomp.exact import careful_difference, difference
 from decomp.similarity import Similarity
