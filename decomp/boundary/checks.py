@@ -7,7 +7,7 @@ import numpy as np
 from decomp.boundary.arcs import Arrangement, Contact
 from decomp.boundary.member import Member
 from decomp.boundary.wedges import Star
-from decomp.carriers import Carrier, Cone
+from decomp.carriers import Carrier
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import OverlapError, UnboundedRegionError
 from decomp.places import place, triple
@@ -120,8 +120,9 @@ def touch_between(arrangement: Arrangement, contact: Contact, member: Member) ->
 def _layers(a: Carrier, b: Carrier, point: Array, scale: float) -> Bools:
     """Insides (3, 2) of two touching carriers in the layers below, between and above them."""
     for first, second, order in ((a, b, (0, 1)), (b, a, (1, 0))):
-        if isinstance(first, Cone) and float(norm(point - first.apex)) <= TOLERANCE * scale:
-            within = bool(second.signed_distance(point + 1e-3 * scale * first.axis) < 0)
+        tip, inward = first.tip, first.tip_axis
+        if tip is not None and inward is not None and norm(point - tip) <= TOLERANCE * scale:
+            within = bool(second.signed_distance(point + 1e-3 * scale * inward) < 0)
             rows = np.array([[True, within], [False, within], [False, not within]])
             return rows[:, order]
     normal = a.normal(point)

@@ -20,7 +20,7 @@ from decomp.boundary.second_volume import second_flux, torus_flux
 from decomp.boundary.topology import Vertex
 from decomp.boundary.torus_loops import genus, winding
 from decomp.boundary.turning import Turning, sampler, turning
-from decomp.carriers import Sphere, Torus
+from decomp.carriers import Torus
 from decomp.errors import GeometryError
 from decomp.vectors import Array
 
@@ -74,7 +74,7 @@ def refuse_wrong_turning(
         if found is None:
             continue
         inside = covered.count(index)
-        if isinstance(carrier, Sphere):
+        if carrier.needs_pole:
             inside = 2 * integral.wholes
         _refuse_turns(member, face, found, inside, characteristic(face, member, edges))
         for vertex, angle in found.corners:

@@ -56,6 +56,12 @@ def round_reach(axis: Array, radius: float) -> Array:
     return np.asarray(radius * np.sqrt(np.maximum(0.0, 1 - axis**2)))
 
 
+def circle_through(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Array, float, float]:
+    """The circle about an axis through p (3,), from there on: see `Carrier.level`."""
+    z, rho, out = axial_split(p, point, axis)
+    return point + z * axis, out, cross(axis, out), float(rho), float(rho)
+
+
 def box_between(point: Array, axis: Array, parts: Array, reach: Array) -> Array:
     """Corners (2, 3) of the box around a cylinder between the heights of some boxes (k, 6).
 

@@ -12,6 +12,7 @@ from typing import ClassVar, NamedTuple
 
 import numpy as np
 
+from decomp.carriers.charts import Chart
 from decomp.similarity import Similarity
 from decomp.vectors import Array, frozen
 
@@ -35,6 +36,16 @@ class Border(NamedTuple):
     steps: Array
 
 
+class Level(NamedTuple):
+    """The ellipse centre + a cos t x + b sin t y, x and y orthonormal (3,); a circle if a = b."""
+
+    centre: Array
+    x: Array
+    y: Array
+    a: float
+    b: float
+
+
 @dataclass(frozen=True, eq=False)
 class Carrier(ABC):
     """An untrimmed surface with an inside, where the signed distance is negative."""
@@ -46,6 +57,10 @@ class Carrier(ABC):
     """Whether it is bounded, and may be a face without an edge."""
     revolved: ClassVar[bool] = True
     """Whether it is a surface of revolution."""
+    needs_pole: ClassVar[bool] = False
+    """Whether it has charts and frames only without one point of it, its pole."""
+    locus: ClassVar[int | None] = None
+    """Dimension of its reflexive locus, None without one, or with a sheet for one."""
     traceable: ClassVar[bool] = True
     """Whether its Voronoi surfaces with other sites are known (`decomp.voronoi`)."""
 
@@ -137,6 +152,16 @@ class Carrier(ABC):
         """
 
     @property
+    def flat(self) -> bool:
+        """Whether it is a plane."""
+        return self.degree == 1
+
+    @property
+    def place(self) -> Array:
+        """Its reference point (3,): a centre, an apex, or any one of a plane or an axis."""
+        return self.packed()[:3]
+
+    @property
     def tip(self) -> Array | None:
         """The one point (3,) without a normal, None where all have one."""
         return None
@@ -164,6 +189,42 @@ class Carrier(ABC):
         """Boxes (2, 3) around the inside and around the outside."""
         return self.box(), np.array(EVERYWHERE)
 
+    @property
+    def tip_axis(self) -> Array | None:
+        """The unit direction (3,) from the tip into the inside, None where there is no tip."""
+        return None
+
+    def around_tip(self, step: float) -> Array:
+        """Points (k, 3) all around its tip, a step down its rulings; none where there is none."""
+        return np.empty((0, 3))
+
+    @abstractmethod
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        """The carrier laid out flat.
+
+        Args:
+            tip: whether its tip, if there is one, must have a place.
+            reach: without its tip, the distance from it at which lengths are kept.
+            pole: unit vector (3,) from the centre to the point that has no place, where one is
+                needed.
+
+        Raises:
+            GeometryError: a pole is needed and not given.
+        """
+
+    def grid(self, finer: int, pole: Array | None = None) -> tuple[Array, float]:
+        """Points (k, 3) without which it has no triangles, and a distance that they keep.
+
+        Args:
+            finer: how many times as many points along a circle there are than at least.
+            pole: see `chart`.
+        """
+        return np.empty((0, 3)), 0.0
+
+    def section_kind(self, normal: Array) -> str:
+        """What the curve is called in which planes with unit `normal` (3,) cut it, in general."""
+        return "curve"
+
     def box_around(self, parts: Array) -> Array | None:
         """Corners (2, 3) of a box around a face, None if nothing is known.
 
@@ -185,6 +246,10 @@ class Carrier(ABC):
 
         It leads up in the sense of `rise`. None at a tip too, where lines lead everywhere.
         """
+        return None
+
+    def level(self, point: Array) -> Level | None:
+        """The ellipse across the rulings through a point, None if it is none."""
         return None
 
     def rise(self, points: Array) -> Array:

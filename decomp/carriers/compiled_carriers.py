@@ -13,7 +13,12 @@ from math import hypot, inf, sqrt
 import numpy as np
 
 from decomp.carriers.base import ROW, Carrier
-from decomp.carriers.compiled_ellipse import elliptic_distance, elliptic_foot, elliptic_normal
+from decomp.carriers.compiled_ellipse import (
+    elliptic_bend,
+    elliptic_distance,
+    elliptic_foot,
+    elliptic_normal,
+)
 from decomp.carriers.kinds import codes_of
 from decomp.kernels.compiled import inlined, inner
 from decomp.kernels.records import Record
@@ -174,6 +179,47 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
         py + major * uy + minor * ny,
         pz + major * uz + minor * nz,
     )
+
+
+@inner
+def normal_curvature(
+    table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
+) -> float:
+    """Curvature of carrier c at a point on it along a unit tangent, see `Carrier`."""
+    packed, code = table.packed, table.codes[c]
+    if code == PLANE:
+        return 0.0
+    if code == SPHERE:
+        return float(1.0 / packed[c, 6])
+    ax, ay, az = packed[c, 3], packed[c, 4], packed[c, 5]
+    if code == ELLIPTIC_CYLINDER:
+        nx, ny, nz = elliptic_normal(packed, c, x, y, z)
+        wx, wy, wz = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
+        around = wx * dx + wy * dy + wz * dz
+        return float(around * around * elliptic_bend(packed, c, x, y, z))
+    ux, uy, uz = radial(packed, c, x, y, z)
+    wx, wy, wz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
+    around = wx * dx + wy * dy + wz * dz
+    if code == CYLINDER:
+        return float(around * around / packed[c, 6])
+    rho = (x - packed[c, 0]) * ux + (y - packed[c, 1]) * uy + (z - packed[c, 2]) * uz
+    if code == CONE:
+        return float(around * around * packed[c, 7] / rho)
+    nx, ny, nz = normal(table, c, x, y, z)
+    sx, sy, sz = wy * nz - wz * ny, wz * nx - wx * nz, wx * ny - wy * nx
+    across = sx * dx + sy * dy + sz * dz
+    parallel = (nx * ux + ny * uy + nz * uz) / rho
+    return float(around * around * parallel + across * across / packed[c, 7])
+
+
+@inner
+def at_tip(table: CarrierTable, c: int, x: float, y: float, z: float, near: float) -> bool:
+    """Whether a point is within `near` of carrier c's tip, which only cones have."""
+    if table.codes[c] != CONE:
+        return False
+    packed = table.packed
+    vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
+    return sqrt(vx * vx + vy * vy + vz * vz) <= near
 
 
 @inner

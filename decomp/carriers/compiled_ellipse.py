@@ -95,3 +95,11 @@ def elliptic_foot(
         packed[k, 1] + height * packed[k, 4] + p * packed[k, 9] + q * yy,
         packed[k, 2] + height * packed[k, 5] + p * packed[k, 10] + q * yz,
     )
+
+
+@inner
+def elliptic_bend(packed: Array, k: int, x: float, y: float, z: float) -> float:
+    """Curvature of the section at the foot of a point."""
+    _, _, _, c, s = elliptic_split(packed, k, x, y, z)
+    a, b = packed[k, 6], packed[k, 7]
+    return float(a * b / hypot(b * c, a * s) ** 3)

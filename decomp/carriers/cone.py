@@ -12,13 +12,15 @@ from decomp.carriers.axial import (
     axial_line,
     axial_rows,
     axial_split,
+    circle_through,
     heights,
     odd_side,
     round_reach,
 )
-from decomp.carriers.base import Border, Carrier, pack
+from decomp.carriers.base import Border, Carrier, Level, pack
+from decomp.carriers.charts import Chart, ConeChart, ConeStripChart
 from decomp.similarity import Similarity
-from decomp.vectors import Array, cross, dot, norm
+from decomp.vectors import Array, cross, dot, frame, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +38,7 @@ class Cone(Carrier):
     kind: ClassVar[str] = "cone"
     code: ClassVar[int] = 3
     degree: ClassVar[int] = 2
+    locus: ClassVar[int | None] = 1
 
     def signed_distance(self, p: Array) -> Array:
         z, rho, _ = axial_split(p, self.apex, self.axis)
@@ -139,6 +142,29 @@ class Cone(Carrier):
         _, _, out = axial_split(points, self.apex, self.axis)
         ruling = np.cos(self.angle) * self.axis + np.sin(self.angle) * out
         return dot(tangents, cross(self.axis, out)), dot(tangents, ruling)
+
+    @property
+    def tip_axis(self) -> Array | None:
+        return self.axis
+
+    def around_tip(self, step: float) -> Array:
+        x, y = frame(self.axis)
+        angles = np.linspace(0.3, 0.3 + 2 * np.pi, 12, endpoint=False)[:, None]
+        side = np.cos(angles) * x + np.sin(angles) * y
+        return np.asarray(
+            self.apex + step * (np.cos(self.angle) * self.axis + np.sin(self.angle) * side)
+        )
+
+    def level(self, point: Array) -> Level | None:
+        return Level(*circle_through(point, self.apex, self.axis))
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse" if abs(float(normal @ self.axis)) > sin(self.angle) else "hyperbola"
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        if tip:
+            return ConeChart(self.apex, self.axis, self.angle)
+        return ConeStripChart(self.apex, self.axis, self.angle, reach)
 
     def packed(self) -> Array:
         return pack(self.apex, self.axis, sin(self.angle), cos(self.angle))

@@ -12,11 +12,13 @@ from decomp.carriers.axial import (
     axial_rows,
     axial_split,
     axis_deviation,
+    circle_through,
     nearest_to_origin,
     round_reach,
     straight_box,
 )
-from decomp.carriers.base import Carrier, pack
+from decomp.carriers.base import Carrier, Level, pack
+from decomp.carriers.charts import Chart, CylinderChart
 from decomp.carriers.straight_sides import StraightSides
 from decomp.similarity import Similarity
 from decomp.vectors import Array, cross, dot, norm
@@ -34,6 +36,7 @@ class Cylinder(StraightSides):
     kind: ClassVar[str] = "cylinder"
     code: ClassVar[int] = 2
     degree: ClassVar[int] = 2
+    locus: ClassVar[int | None] = 1
 
     def signed_distance(self, p: Array) -> Array:
         _, rho, _ = axial_split(p, self.point, self.axis)
@@ -94,6 +97,15 @@ class Cylinder(StraightSides):
 
     def section_reach(self) -> Array:
         return round_reach(self.axis, self.radius)
+
+    def level(self, point: Array) -> Level | None:
+        return Level(*circle_through(point, self.point, self.axis))
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse"
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return CylinderChart(self.point, self.axis, self.radius)
 
     def packed(self) -> Array:
         return pack(self.point, self.axis, self.radius)

@@ -9,7 +9,8 @@ from typing import ClassVar
 import numpy as np
 
 from decomp.carriers.axial import axis_deviation, nearest_to_origin, straight_box
-from decomp.carriers.base import Carrier, pack
+from decomp.carriers.base import Carrier, Level, pack
+from decomp.carriers.charts import Chart, EllipticCylinderChart
 from decomp.carriers.point_ellipse import nearest_on_ellipse
 from decomp.carriers.straight_sides import StraightSides
 from decomp.similarity import Similarity
@@ -120,18 +121,18 @@ class EllipticCylinder(StraightSides):
     def section_reach(self) -> Array:
         return np.hypot(self.a * self.x, self.b * self.y)
 
+    def level(self, point: Array) -> Level | None:
+        centre = self.point + float((point - self.point) @ self.axis) * self.axis
+        return Level(centre, self.x, self.y, self.a, self.b)
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse"
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return EllipticCylinderChart(self.point, self.axis, self.x, self.a, self.b)
+
     def packed(self) -> Array:
         return pack(self.point, self.axis, self.a, self.b, self.x)
-
-    def angles(self, q: Array) -> Array:
-        """Angles t (...) in [-pi, pi] of the feet a cos t x + b sin t y of points (..., 3)."""
-        c, s = self._nearest(q)
-        return np.arctan2(s, c)
-
-    def at(self, angle: Array, height: Array) -> Array:
-        """Points (..., 3) at angles t, see `angles`, and heights along the axis."""
-        section = self._on_section(np.cos(angle), np.sin(angle))
-        return np.asarray(self.point + np.asarray(height)[..., None] * self.axis + section)
 
     def _nearest(self, p: Array) -> tuple[Array, Array]:
         away = p - self.point

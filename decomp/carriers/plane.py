@@ -9,6 +9,7 @@ import numpy as np
 
 from decomp.carriers.axial import axial_line, odd_side
 from decomp.carriers.base import EVERYWHERE, Border, Carrier, pack
+from decomp.carriers.charts import Chart, PlaneChart
 from decomp.similarity import Similarity
 from decomp.vectors import Array, cross, dot, frame, perpendicular
 
@@ -107,6 +108,9 @@ class Plane(Carrier):
     def in_frames(self, points: Array, tangents: Array, pole: Array | None) -> tuple[Array, Array]:
         x, y = frame(self.normal_vector)
         return dot(tangents, x), dot(tangents, y)
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return PlaneChart(self.point, *frame(self.normal_vector))
 
     def packed(self) -> Array:
         return pack(self.point, self.normal_vector)

@@ -9,6 +9,8 @@ import numpy as np
 
 from decomp.carriers.axial import axial_line, axial_split
 from decomp.carriers.base import Border, Carrier, pack
+from decomp.carriers.charts import Chart, SphereChart
+from decomp.errors import GeometryError
 from decomp.similarity import Similarity
 from decomp.vectors import Array, cross, dot, frame, norm
 
@@ -24,6 +26,8 @@ class Sphere(Carrier):
     code: ClassVar[int] = 1
     degree: ClassVar[int] = 2
     closed: ClassVar[bool] = True
+    needs_pole: ClassVar[bool] = True
+    locus: ClassVar[int | None] = 0
 
     def signed_distance(self, p: Array) -> Array:
         return np.asarray(norm(p - self.centre) - self.radius)
@@ -130,6 +134,18 @@ class Sphere(Carrier):
         height, rise = dot(n, pole), dot(tangents, pole)
         moved = tangents + n * (rise / (1 - height))[..., None]
         return dot(moved, x), dot(moved, y)
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        if pole is None:
+            raise GeometryError("the sphere about {at} needs a pole to be drawn", at=self.centre)
+        return SphereChart(self.centre, self.radius, pole)
+
+    def grid(self, finer: int, pole: Array | None = None) -> tuple[Array, float]:
+        if pole is None:
+            return super().grid(finer)
+        x, y = frame(pole)
+        around = self.centre + self.radius * np.array([-pole, x, y, -x, -y])
+        return around, 1.5 * self.radius
 
     def packed(self) -> Array:
         return pack(self.centre, np.array([0.0, 0.0, 1.0]), self.radius)

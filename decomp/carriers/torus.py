@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 from typing import ClassVar
 
 import numpy as np
 
 from decomp.carriers.axial import axial_rows, axial_split, round_reach
 from decomp.carriers.base import Border, Carrier, pack
+from decomp.carriers.charts import Chart, TorusChart
 from decomp.similarity import Similarity
 from decomp.vectors import Array, cross, dot, frame, norm
 
@@ -28,6 +30,7 @@ class Torus(Carrier):
     kind: ClassVar[str] = "torus"
     code: ClassVar[int] = 4
     degree: ClassVar[int] = 4
+    locus: ClassVar[int | None] = 1
     closed: ClassVar[bool] = True
 
     def signed_distance(self, p: Array) -> Array:
@@ -133,6 +136,16 @@ class Torus(Carrier):
         out = (rho - self.major) / self.minor
         tube = (out[..., None] * self.axis) - (z / self.minor)[..., None] * radial
         return dot(tangents, cross(self.axis, radial)), dot(tangents, tube)
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return TorusChart(self.centre, self.axis, self.major, self.minor)
+
+    def grid(self, finer: int, pole: Array | None = None) -> tuple[Array, float]:
+        tube = 8 * finer
+        around = tube * max(1, ceil(self.major / (3 * self.minor)))
+        u, v = np.meshgrid(*(2 * np.pi * np.arange(n) / n for n in (around, tube)))
+        grid = self.point(u.ravel(), v.ravel(), *frame(self.axis))
+        return grid, 2 * np.pi * self.minor / (8 * finer)
 
     def packed(self) -> Array:
         return pack(self.centre, self.axis, self.major, self.minor)

@@ -34,6 +34,54 @@ def test_rulings_lie_on_it_and_lead_up(carrier: Carrier) -> None:
 
 
 @every_carrier
+def test_levels_lie_on_it_across_its_rulings(carrier: Carrier) -> None:
+    for q in on_carrier(carrier, 20):
+        found, way = carrier.level(q), carrier.ruling(q)
+        if found is None:
+            assert carrier.closed or carrier.flat
+            continue
+        t = np.linspace(0, 2 * np.pi, 721)[:, None]
+        curve = found.centre + found.a * np.cos(t) * found.x + found.b * np.sin(t) * found.y
+        assert np.abs(carrier.signed_distance(curve)).max() < 10 * ROUNDING
+        assert norm(curve - q).min() < 0.02
+        assert way is not None
+        assert np.ptp(carrier.rise(curve)) < 10 * ROUNDING
+
+
+@every_carrier
+@pytest.mark.parametrize("tip", [False, True])
+def test_charts_are_one_to_one_and_keep_their_sense(carrier: Carrier, tip: bool) -> None:
+    pole = np.array([0.6, 0.0, 0.8]) if carrier.needs_pole else None
+    chart = carrier.chart(tip, 1.3, pole)
+    q = on_carrier(carrier)
+    plane = chart.to_plane(q)
+    assert norm(chart.to_space(plane) - q).max() < 1e-12
+    for k, period in enumerate(chart.period):
+        if period is not None:
+            moved = plane + period * np.eye(2)[k]
+            assert norm(chart.to_space(moved) - q).max() < 1e-12
+            assert np.ptp(plane[:, k]) <= period
+    # steps along (u, v) turn about the normal as these do
+    step = 1e-5
+    along, across = (
+        chart.to_space(plane + step * unit) - chart.to_space(plane - step * unit)
+        for unit in np.eye(2)
+    )
+    sense = dot(cross(along, across), carrier.normal(q))
+    assert (sense > 0.3 * norm(along) * norm(across)).all()
+
+
+@every_carrier
+def test_points_around_a_tip_are_on_it(carrier: Carrier) -> None:
+    ring = carrier.around_tip(0.1)
+    assert (carrier.tip is None) == (carrier.tip_axis is None) == (not len(ring))
+    if carrier.tip is not None and carrier.tip_axis is not None:
+        assert np.abs(carrier.signed_distance(ring)).max() < ROUNDING
+        assert norm(ring - carrier.tip) == pytest.approx(0.1)
+        assert float(carrier.signed_distance(carrier.tip + carrier.tip_axis)) < 0
+
+
+@every_carrier
 def test_far_points_are_far_out_on_it(carrier: Carrier) -> None:
     far = carrier.far_points(PLACE, 10.0)
     assert bool(far) != carrier.closed

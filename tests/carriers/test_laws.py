@@ -11,7 +11,13 @@ from numba import njit
 from decomp import similarity
 from decomp.carriers import Carrier, CarrierTable, Plane
 from decomp.carriers.compiled_carriers import CarrierTable as Compiled
-from decomp.carriers.compiled_carriers import carrier_table, foot, foot_spread, signed_distance
+from decomp.carriers.compiled_carriers import (
+    carrier_table,
+    foot,
+    foot_spread,
+    normal_curvature,
+    signed_distance,
+)
 from decomp.carriers.kinds import KINDS
 from decomp.carriers.on_carriers import normals_at, projected
 from decomp.similarity import Similarity
@@ -89,6 +95,24 @@ def test_curvature_is_the_second_derivative_of_the_distance(carrier: Carrier) ->
     assert (np.abs(bend) <= (1 + 1e-9) / carrier.least_radius).all() or np.isinf(
         carrier.least_radius
     )
+
+
+@njit  # type: ignore[untyped-decorator]
+def _bends(table: Compiled, points: Array, ways: Array) -> Array:
+    result = np.empty(len(points))
+    for i in range(len(points)):
+        x, y, z = points[i]
+        dx, dy, dz = ways[i]
+        result[i] = normal_curvature(table, 0, x, y, z, dx, dy, dz)
+    return result
+
+
+@every_carrier
+def test_the_kernels_curvature_is_the_same(carrier: Carrier) -> None:
+    q = on_carrier(carrier)
+    way = tangents(carrier, q)
+    found = _bends(carrier_table([carrier]), q, way)
+    assert found == pytest.approx(carrier.normal_curvature(q, way), rel=1e-12, abs=1e-14)
 
 
 @every_carrier

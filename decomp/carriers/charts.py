@@ -12,12 +12,13 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Plane, Sphere, Torus
 from decomp.carriers.axial import axial_split
 from decomp.carriers.ellipse_arc import arc_angle, arc_length, perimeter
-from decomp.complex.plane.planar import PLANE, Period
 from decomp.errors import GeometryError
-from decomp.vectors import Array, dot, frame
+from decomp.vectors import Array, dot, frame, norm
+
+Period = tuple[float | None, float | None]
+"""Of both coordinates, None where there is none."""
 
 POLE_GAP = 1e-12
 """1 - cos of the angle from a sphere's pole below which a point counts as the pole."""
@@ -33,7 +34,7 @@ class Chart(ABC):
 
     @property
     def period(self) -> Period:
-        return PLANE
+        return None, None
 
     @abstractmethod
     def to_plane(self, points: Array) -> Array:
@@ -64,61 +65,77 @@ class PlaneChart(Chart):
 class CylinderChart(Chart):
     """(radius * angle, height): the cylinder unrolled."""
 
-    carrier: Cylinder
+    point: Array
+    axis: Array
+    radius: float
 
     @property
     def period(self) -> Period:
-        return 2 * pi * self.carrier.radius, None
+        return 2 * pi * self.radius, None
 
     def to_plane(self, points: Array) -> Array:
-        c = self.carrier
-        z, _, outward = axial_split(points, c.point, c.axis)
-        return np.stack([c.radius * _angle(outward, c.axis), z], axis=-1)
+        z, _, outward = axial_split(points, self.point, self.axis)
+        return np.stack([self.radius * _angle(outward, self.axis), z], axis=-1)
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
-        radial = _radial(uv[..., 0] / c.radius, c.axis)
-        return np.asarray(c.point + c.radius * radial + uv[..., 1:] * c.axis)
+        radial = _radial(uv[..., 0] / self.radius, self.axis)
+        return np.asarray(self.point + self.radius * radial + uv[..., 1:] * self.axis)
 
 
 @dataclass(frozen=True, eq=False)
 class EllipticCylinderChart(Chart):
-    """(length of the section from its major semi-axis, height): the cylinder unrolled."""
+    """(length of the section from its major semi-axis, height): the cylinder unrolled.
 
-    carrier: EllipticCylinder
+    Args:
+        point: of the axis.
+        axis: unit vector.
+        x: unit vector along the major semi-axis.
+        a: its length.
+        b: that of the minor one.
+    """
+
+    point: Array
+    axis: Array
+    x: Array
+    a: float
+    b: float
 
     @property
     def period(self) -> Period:
-        return perimeter(self.carrier.a, self.carrier.b), None
+        return perimeter(self.a, self.b), None
 
     def to_plane(self, points: Array) -> Array:
-        c = self.carrier
-        along = arc_length(c.angles(points), c.a, c.b)
-        return np.stack([along, dot(points - c.point, c.axis)], axis=-1)
+        away = points - self.point
+        y = np.cross(self.axis, self.x)
+        # of points on it: anywhere else another point of the section would be meant
+        angle = np.arctan2(dot(away, y) / self.b, dot(away, self.x) / self.a)
+        return np.stack([arc_length(angle, self.a, self.b), dot(away, self.axis)], axis=-1)
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
-        return c.at(arc_angle(uv[..., 0], c.a, c.b), uv[..., 1])
+        angle, y = arc_angle(uv[..., 0], self.a, self.b), np.cross(self.axis, self.x)
+        section = self.a * np.cos(angle)[..., None] * self.x
+        section = section + self.b * np.sin(angle)[..., None] * y
+        return np.asarray(self.point + section + uv[..., 1:] * self.axis)
 
 
 @dataclass(frozen=True, eq=False)
 class ConeChart(Chart):
     """Seen along the axis, with slant lengths: the apex is the origin."""
 
-    carrier: Cone
+    apex: Array
+    axis: Array
+    angle: float
 
     def to_plane(self, points: Array) -> Array:
-        c = self.carrier
-        slant, outward = _slant(c, points)
-        x, y = frame(c.axis)
+        slant, outward = _slant(self.apex, self.axis, self.angle, points)
+        x, y = frame(self.axis)
         return np.stack([slant * dot(outward, x), -slant * dot(outward, y)], axis=-1)
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
-        x, y = frame(c.axis)
+        x, y = frame(self.axis)
         side = uv[..., :1] * x - uv[..., 1:] * y
         slant = np.hypot(uv[..., 0], uv[..., 1])[..., None]
-        return np.asarray(c.apex + sin(c.angle) * side + cos(c.angle) * slant * c.axis)
+        return np.asarray(self.apex + sin(self.angle) * side + cos(self.angle) * slant * self.axis)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,33 +143,37 @@ class ConeStripChart(Chart):
     """Angle and logarithm of the slant length, which keeps angles: the cone without its apex.
 
     Args:
+        apex: of the cone.
+        axis: unit vector into it.
+        angle: half of its opening, in radians.
         slant: the slant length at which lengths are kept.
     """
 
-    carrier: Cone
+    apex: Array
+    axis: Array
+    angle: float
     slant: float
 
     @property
     def _scale(self) -> float:
-        return self.slant * sin(self.carrier.angle)
+        return self.slant * sin(self.angle)
 
     @property
     def period(self) -> Period:
         return 2 * pi * self._scale, None
 
     def to_plane(self, points: Array) -> Array:
-        c = self.carrier
-        slant, outward = _slant(c, points)
+        slant, outward = _slant(self.apex, self.axis, self.angle, points)
         if (slant <= 0).any():
-            raise GeometryError("the apex {at} of a cone has no place in its strip", at=c.apex)
-        height = np.log(slant / self.slant) / sin(c.angle)
-        return np.asarray(self._scale * np.stack([_angle(outward, c.axis), height], axis=-1))
+            raise GeometryError("the apex {at} of a cone has no place in its strip", at=self.apex)
+        height = np.log(slant / self.slant) / sin(self.angle)
+        return np.asarray(self._scale * np.stack([_angle(outward, self.axis), height], axis=-1))
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
-        radial = _radial(uv[..., 0] / self._scale, c.axis)
-        slant = self.slant * np.exp(uv[..., 1:] / self._scale * sin(c.angle))
-        return np.asarray(c.apex + slant * (sin(c.angle) * radial + cos(c.angle) * c.axis))
+        radial = _radial(uv[..., 0] / self._scale, self.axis)
+        slant = self.slant * np.exp(uv[..., 1:] / self._scale * sin(self.angle))
+        ruling = sin(self.angle) * radial + cos(self.angle) * self.axis
+        return np.asarray(self.apex + slant * ruling)
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,80 +181,57 @@ class SphereChart(Chart):
     """Stereographic from a pole, lengths kept at the point opposite.
 
     Args:
+        centre: of the sphere.
+        radius: of it.
         pole: unit vector from the centre to the one point that has no place in the plane.
     """
 
-    carrier: Sphere
+    centre: Array
+    radius: float
     pole: Array
 
     def to_plane(self, points: Array) -> Array:
-        d = self.carrier.normal(points)
+        away = points - self.centre
+        d = away / norm(away)[..., None]
         x, y = frame(-self.pole)
         gap = 1 - d @ self.pole
         if (gap < POLE_GAP).any():
-            at = self.carrier.centre + self.carrier.radius * self.pole
+            at = self.centre + self.radius * self.pole
             raise GeometryError("a point at the pole {at} of a sphere has no place", at=at)
         flat = np.stack([d @ x, d @ y], axis=-1)
-        return np.asarray(2 * self.carrier.radius * flat / gap[..., None])
+        return np.asarray(2 * self.radius * flat / gap[..., None])
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
         x, y = frame(-self.pole)
-        w = uv / (2 * c.radius)
+        w = uv / (2 * self.radius)
         square = dot(w, w)[..., None]
         d = (2 * (w[..., :1] * x + w[..., 1:] * y) + (square - 1) * self.pole) / (1 + square)
-        return np.asarray(c.centre + c.radius * d)
+        return np.asarray(self.centre + self.radius * d)
 
 
 @dataclass(frozen=True, eq=False)
 class TorusChart(Chart):
     """(major * angle about the axis, minor * angle in the tube)."""
 
-    carrier: Torus
+    centre: Array
+    axis: Array
+    major: float
+    minor: float
 
     @property
     def period(self) -> Period:
-        return 2 * pi * self.carrier.major, 2 * pi * self.carrier.minor
+        return 2 * pi * self.major, 2 * pi * self.minor
 
     def to_plane(self, points: Array) -> Array:
-        c = self.carrier
-        z, rho, outward = axial_split(points, c.centre, c.axis)
-        around, tube = _angle(outward, c.axis), np.arctan2(z, rho - c.major)
-        return np.stack([c.major * around, c.minor * tube], axis=-1)
+        z, rho, outward = axial_split(points, self.centre, self.axis)
+        around, tube = _angle(outward, self.axis), np.arctan2(z, rho - self.major)
+        return np.stack([self.major * around, self.minor * tube], axis=-1)
 
     def to_space(self, uv: Array) -> Array:
-        c = self.carrier
-        return c.point(uv[..., 0] / c.major, uv[..., 1] / c.minor, *frame(c.axis))
-
-
-def chart_of(
-    carrier: Carrier, apex: bool = False, slant: float = 1.0, pole: Array | None = None
-) -> Chart:
-    """The chart of a carrier.
-
-    Args:
-        carrier: of any kind.
-        apex: whether a cone's apex must have a place.
-        slant: of a cone without its apex, the slant length at which lengths are kept.
-        pole: unit vector (3,), needed for a sphere.
-
-    Raises:
-        GeometryError: a sphere is given no pole.
-    """
-    if isinstance(carrier, Plane):
-        return PlaneChart(carrier.point, *frame(carrier.normal_vector))
-    if isinstance(carrier, Cylinder):
-        return CylinderChart(carrier)
-    if isinstance(carrier, EllipticCylinder):
-        return EllipticCylinderChart(carrier)
-    if isinstance(carrier, Cone):
-        return ConeChart(carrier) if apex else ConeStripChart(carrier, slant)
-    if isinstance(carrier, Torus):
-        return TorusChart(carrier)
-    assert isinstance(carrier, Sphere)
-    if pole is None:
-        raise GeometryError("the sphere about {at} needs a pole to be drawn", at=carrier.centre)
-    return SphereChart(carrier, pole)
+        tube = uv[..., 1:] / self.minor
+        radial = _radial(uv[..., 0] / self.major, self.axis)
+        rho, height = self.major + self.minor * np.cos(tube), self.minor * np.sin(tube)
+        return np.asarray(self.centre + rho * radial + height * self.axis)
 
 
 def _angle(outward: Array, axis: Array) -> Array:
@@ -248,7 +246,7 @@ def _radial(angle: Array, axis: Array) -> Array:
     return np.asarray(np.cos(angle)[..., None] * x + np.sin(angle)[..., None] * y)
 
 
-def _slant(cone: Cone, points: Array) -> tuple[Array, Array]:
+def _slant(apex: Array, axis: Array, angle: float, points: Array) -> tuple[Array, Array]:
     """Distance from the apex along a ruling, and the direction away from the axis."""
-    z, rho, outward = axial_split(points, cone.apex, cone.axis)
-    return np.maximum(rho * sin(cone.angle) + z * cos(cone.angle), 0.0), outward
+    z, rho, outward = axial_split(points, apex, axis)
+    return np.maximum(rho * sin(angle) + z * cos(angle), 0.0), outward
