@@ -16,9 +16,11 @@ from decomp.csg.primitives import (
     Block,
     Cone,
     Cylinder,
+    EllipticCylinder,
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    InfiniteEllipticCylinder,
     Primitive,
     Sphere,
     Torus,
@@ -105,6 +107,13 @@ def by_numbers(solid: Primitive, points: Array) -> Bools:
             return np.asarray(np.hypot(along, away - major) < minor)
         case HalfSpace(point=point, normal=normal):
             return np.asarray((points - point) @ normal < 0)
+        case EllipticCylinder(base=base, top=top, first=first, second=second):
+            along, _ = _about(points, base, top - base)
+            other = np.cross(top - base, first)
+            other *= second / np.linalg.norm(other)
+            return (along > 0) & (along < 1) & _in_ellipse(points - base, first, other)
+        case InfiniteEllipticCylinder(point=point, first=first, second=other):
+            return _in_ellipse(points - point, first, other)
         case InfiniteCylinder(point=point, axis=axis, radius=radius):
             return np.asarray(_about(points, point, axis)[1] < radius)
         case InfiniteCone(apex=apex, axis=axis, half_angle=angle):
@@ -117,3 +126,9 @@ def _about(points: Array, start: Array, axis: Array) -> tuple[Array, Array]:
     """Ways (n,) along an axis, in parts of its length, and distances from it."""
     along = (points - start) @ axis / (axis @ axis)
     return along, np.linalg.norm(points - start - along[:, None] * axis, axis=1)
+
+
+def _in_ellipse(away: Array, first: Array, other: Array) -> Bools:
+    """Whether points, seen from the axis, are inside the cylinder with two semi-axes."""
+    along, across = away @ first / (first @ first), away @ other / (other @ other)
+    return np.asarray(along**2 + across**2 < 1)

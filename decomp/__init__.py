@@ -29,9 +29,11 @@ if TYPE_CHECKING:
     from decomp.csg.primitives import Block as Block
     from decomp.csg.primitives import Cone as Cone
     from decomp.csg.primitives import Cylinder as Cylinder
+    from decomp.csg.primitives import EllipticCylinder as EllipticCylinder
     from decomp.csg.primitives import HalfSpace as HalfSpace
     from decomp.csg.primitives import InfiniteCone as InfiniteCone
     from decomp.csg.primitives import InfiniteCylinder as InfiniteCylinder
+    from decomp.csg.primitives import InfiniteEllipticCylinder as InfiniteEllipticCylinder
     from decomp.csg.primitives import Sphere as Sphere
     from decomp.csg.primitives import Torus as Torus
     from decomp.csg.solid import Solid as Solid
@@ -75,9 +77,11 @@ _HOMES = {
         "Block",
         "Cone",
         "Cylinder",
+        "EllipticCylinder",
         "HalfSpace",
         "InfiniteCone",
         "InfiniteCylinder",
+        "InfiniteEllipticCylinder",
         "Sphere",
         "Torus",
     ),

@@ -79,7 +79,7 @@ class ParseError(FileError):
 
 
 class UnsupportedError(FileError):
-    """A construct lies outside blocks, spheres, cylinders, cones, tori and similarities."""
+    """A construct lies outside the primitives and similarities that are supported."""
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,9 @@ import numpy as np
 from decomp.boundary.faces import RawFace
 from decomp.boundary.member import Member
 from decomp.boundary.topology import Convexity, Vertex
-from decomp.carriers import Cone
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
-from decomp.vectors import Array, frame, norm
+from decomp.vectors import Array, norm
 
 
 def apexes(
@@ -21,40 +20,30 @@ def apexes(
     """The apexes of cones that lie inside a face."""
     result = []
     for index, cone in enumerate(form.carriers):
-        if not isinstance(cone, Cone):
+        if cone.tip is None:
             continue
-        if len(points) and norm(points - cone.apex).min() <= 10 * form.tolerance:
+        if len(points) and norm(points - cone.tip).min() <= 10 * form.tolerance:
             continue
-        ring = _around_apex(cone, 1e-5 * form.scale)
+        ring = cone.around_tip(1e-5 * form.scale)
         for outward in (1, -1):
             if member.is_face(index, outward, ring).all():
                 here = [k for k, f in enumerate(raw) if (f.carrier, f.outward) == (index, outward)]
                 convexity = Convexity.CONVEX if outward > 0 else Convexity.REENTRANT
-                face = _apex_face(here, raw, cone, member)
-                result.append(Vertex(cone.apex, (face,), (), convexity))
+                face = _apex_face(here, raw, cone.tip, member)
+                result.append(Vertex(cone.tip, (face,), (), convexity))
     return tuple(result)
 
 
-def _around_apex(cone: Cone, step: float) -> Array:
-    """Points of a cone a step down its rulings: at the apex itself other carriers may meet."""
-    x, y = frame(cone.axis)
-    angles = np.linspace(0.3, 0.3 + 2 * np.pi, 12, endpoint=False)[:, None]
-    side = np.cos(angles) * x + np.sin(angles) * y
-    return np.asarray(
-        cone.apex + step * (np.cos(cone.angle) * cone.axis + np.sin(cone.angle) * side)
-    )
-
-
-def _apex_face(here: Sequence[int], raw: Sequence[RawFace], cone: Cone, member: Member) -> int:
+def _apex_face(here: Sequence[int], raw: Sequence[RawFace], tip: Array, member: Member) -> int:
     """Of the faces on a cone the one that reaches its apex: a way down a ruling stays inside."""
     if len(here) == 1:
         return here[0]
     for k in here:
-        way = cone.apex + np.linspace(0.01, 1, 50)[:, None] * (raw[k].point - cone.apex)
+        way = tip + np.linspace(0.01, 1, 50)[:, None] * (raw[k].point - tip)
         if member.is_face(raw[k].carrier, raw[k].outward, way).all():
             return k
     raise GeometryError(
         f"region {member.name!r}: no face of {member.form.carrier_name(raw[here[0]].carrier)} was "
         "found at its apex {at}",
-        at=cone.apex,
+        at=tip,
     )

@@ -17,7 +17,6 @@ from decomp.boundary.naming import face_names
 from decomp.boundary.rays import Walker
 from decomp.boundary.topology import Convexity, Edge, Face, RegionBoundary, Vertex
 from decomp.boundary.verified import characteristic, refuse_wrong_turning, refuse_wrong_volume
-from decomp.carriers import Sphere
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
 from decomp.vectors import Array
@@ -127,7 +126,7 @@ def _poles(
     return {
         (s.carrier, s.outward): Walker(member, edges, s, reach).clearest_direction
         for s in sets
-        if isinstance(form.carriers[s.carrier], Sphere)
+        if form.carriers[s.carrier].needs_pole
     }
 
 

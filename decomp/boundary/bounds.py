@@ -9,12 +9,11 @@ import numpy as np
 from decomp.boundary.faces import RawFace
 from decomp.boundary.member import Member
 from decomp.boundary.topology import Edge, Vertex
-from decomp.carriers import Carrier, Sphere, Torus
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves.circle import Circle
 from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
-from decomp.vectors import Array, Bools, cross, norm
+from decomp.vectors import Array, Bools, norm
 
 TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """A rotation by odd angles, so that steps do not run along the model's own planes."""
@@ -44,7 +43,7 @@ def region_bounds(
     for group in points:
         box = _grown(box, group)
     for face in faces:
-        candidates = _axis_points(form.carriers[face.carrier])
+        candidates = form.carriers[face.carrier].extreme_points()
         beyond = ((candidates < box[0]) | (candidates > box[1])).any(axis=1)
         if beyond.any():
             candidates = candidates[beyond]
@@ -80,33 +79,6 @@ def _may_stick_out(edge: Edge, box: Array) -> bool:
     chord = norm(np.diff(edge.samples, axis=0)).max()
     low, high = edge.samples.min(axis=0), edge.samples.max(axis=0)
     return bool(((low - chord < box[0]) | (high + chord > box[1])).any())
-
-
-def _axis_points(carrier: Carrier) -> Array:
-    """Points where the normal is parallel to a coordinate axis."""
-    units = np.concatenate([np.eye(3), -np.eye(3)])
-    match carrier:
-        case Sphere():
-            return np.asarray(carrier.centre + carrier.radius * units)
-        case Torus():
-            radial = units - (units @ carrier.axis)[:, None] * carrier.axis
-            length = norm(radial)
-            flat = length > 1e-12
-            spine = carrier.centre + carrier.major * radial[flat] / length[flat, None]
-            both = [spine + s * carrier.minor * units[flat] for s in (1, -1)]
-            top = carrier.centre + carrier.major * _ring(carrier.axis)
-            level = [top + s * carrier.minor * carrier.axis for s in (1, -1)]
-            return np.concatenate([*both, *(level if not flat.all() else [])])
-    return np.empty((0, 3))
-
-
-def _ring(axis: Array) -> Array:
-    """Unit vectors across an axis."""
-    x = np.eye(3)[int(np.argmin(np.abs(axis)))]
-    x = cross(axis, x)
-    x = x / norm(x)
-    angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)[:, None]
-    return np.asarray(np.cos(angles) * x + np.sin(angles) * cross(axis, x))
 
 
 def _extremes(edge: Edge) -> Array:

@@ -7,7 +7,7 @@ import numpy as np
 from decomp.boundary.arcs import Arrangement, Contact
 from decomp.boundary.member import Member
 from decomp.boundary.wedges import Star
-from decomp.carriers import Carrier, Cone, Cylinder, Plane
+from decomp.carriers import Carrier
 from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import OverlapError, UnboundedRegionError
 from decomp.places import place, triple
@@ -23,7 +23,7 @@ def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
     """
     form, radius = arrangement.form, arrangement.radius
     for index, carrier in enumerate(form.carriers):
-        for point in _far_points(carrier, form.centre, radius):
+        for point in carrier.far_points(form.centre, radius):
             inner, outer = member.sides_at(index, point)
             if bool(inner) != bool(outer):
                 _raise_unbounded(member, point)
@@ -41,30 +41,6 @@ def _raise_unbounded(member: Member, point: Array) -> None:
     )
 
 
-def _far_points(carrier: object, centre: Array, radius: float) -> list[Array]:
-    """A point on every end of an infinite carrier, away from the window's middle."""
-    match carrier:
-        case Plane():
-            foot = carrier.foot(centre)
-            # an odd direction, so that it does not run along another carrier's symmetry
-            x = perpendicular(carrier.normal_vector)
-            y = cross(carrier.normal_vector, x)
-            return [np.asarray(foot + 4 * radius * (np.cos(0.7391) * x + np.sin(0.7391) * y))]
-        case Cylinder():
-            ends = [centre + s * 4 * radius * carrier.axis for s in (1.0, -1.0)]
-            side = _odd_side(carrier.axis)
-            return [np.asarray(carrier.foot(end + 1e-3 * radius * side)) for end in ends]
-        case Cone():
-            start = carrier.apex + 4 * radius * carrier.axis
-            return [np.asarray(carrier.foot(start + 8 * radius * _odd_side(carrier.axis)))]
-    return []
-
-
-def _odd_side(axis: Array) -> Array:
-    x = perpendicular(axis)
-    return np.asarray(np.cos(0.7391) * x + np.sin(0.7391) * cross(axis, x))
-
-
 def refuse_overlaps(form: HalfSpaceForm, arrangement: Arrangement, stars: list[Star]) -> None:
     """Raise OverlapError if two regions share interior points.
 
@@ -79,7 +55,7 @@ def refuse_overlaps(form: HalfSpaceForm, arrangement: Arrangement, stars: list[S
     touched = {k for star in stars for k in (s.carrier for s in star.sheets)}
     rng = np.random.default_rng(0)
     for index, carrier in enumerate(form.carriers):
-        if index in touched and not isinstance(carrier, (Plane, Cylinder, Cone)):
+        if index in touched and carrier.closed:
             continue
         scatter = form.centre + form.scale * rng.normal(size=(64, 3))
         points = carrier.project(scatter)
@@ -144,8 +120,9 @@ def touch_between(arrangement: Arrangement, contact: Contact, member: Member) ->
 def _layers(a: Carrier, b: Carrier, point: Array, scale: float) -> Bools:
     """Insides (3, 2) of two touching carriers in the layers below, between and above them."""
     for first, second, order in ((a, b, (0, 1)), (b, a, (1, 0))):
-        if isinstance(first, Cone) and float(norm(point - first.apex)) <= TOLERANCE * scale:
-            within = bool(second.signed_distance(point + 1e-3 * scale * first.axis) < 0)
+        tip, inward = first.tip, first.tip_axis
+        if tip is not None and inward is not None and norm(point - tip) <= TOLERANCE * scale:
+            within = bool(second.signed_distance(point + 1e-3 * scale * inward) < 0)
             rows = np.array([[True, within], [False, within], [False, not within]])
             return rows[:, order]
     normal = a.normal(point)

@@ -12,7 +12,7 @@ from decomp.boundary.loops import HalfEdge, LoopSet
 from decomp.boundary.member import Member
 from decomp.boundary.rays import Walker
 from decomp.boundary.torus_loops import Winding, encloses_nothing, winding
-from decomp.carriers import Carrier, Sphere, Torus
+from decomp.carriers import Carrier, Torus
 from decomp.curves.base import Curve
 from decomp.errors import ContactError
 from decomp.vectors import Array, Ints, norm
@@ -49,7 +49,7 @@ def raw_faces(
             faces.append(RawFace(loop_set.carrier, loop_set.outward, loops, point))
     bounded = {loop_set.carrier for loop_set in sets}
     for index, carrier in enumerate(member.form.carriers):
-        if index not in bounded and isinstance(carrier, (Sphere, Torus)):
+        if index not in bounded and carrier.closed:
             face = _whole_carrier(index, carrier, member)
             if face is not None:
                 faces.append(face)
@@ -201,7 +201,7 @@ def _join_outer_torus_loops(walker: Walker, parent: list[int], root: Callable[[i
         parent[root(key)] = root(big[0])
 
 
-def _whole_carrier(index: int, carrier: Sphere | Torus, member: Member) -> RawFace | None:
+def _whole_carrier(index: int, carrier: Carrier, member: Member) -> RawFace | None:
     """The face that covers a carrier which no edge crosses."""
     samples = carrier.project(_samples(carrier))
     gaps = np.abs(member.form.signed_distances(samples))
@@ -213,11 +213,9 @@ def _whole_carrier(index: int, carrier: Sphere | Torus, member: Member) -> RawFa
     return None
 
 
-def _samples(carrier: Sphere | Torus) -> Array:
+def _samples(carrier: Carrier) -> Array:
     """Points scattered around a closed carrier."""
     rng = np.random.default_rng(0)
     directions = rng.normal(size=(64, 3))
     directions /= norm(directions)[:, None]
-    if isinstance(carrier, Sphere):
-        return np.asarray(carrier.centre + carrier.radius * directions)
-    return np.asarray(carrier.centre + (carrier.major + carrier.minor) * directions)
+    return np.asarray(carrier.packed()[:3] + carrier.width * directions)

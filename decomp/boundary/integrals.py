@@ -2,11 +2,12 @@
 
 On each carrier, in coordinates (u, v) that are right-handed along the outward normal, the area
 element is w(v) du dv. With W' = w, Green's theorem gives the area of a face with its boundary on
-the left as -integral of W(v) du. The volume follows from the divergence theorem,
-3 V = sum over faces of the integral of p . n, and from the vector area, 1/2 integral of p x dp.
+the left as -integral of W(v) du (`Carrier.border_terms`). The volume follows from the divergence
+theorem, 3 V = sum over faces of the integral of p . n, and from the vector area, 1/2 integral of
+p x dp.
 
     plane     area = 1/2 integral of n . p x dp
-    cylinder  u = angle, v = z          W = r z
+    cylinder  u = length of section, v = z   W = z
     cone      u = angle, v = slant s    W = s^2 sin(angle) / 2
     sphere    u = longitude, v = latitude, W = r^2 (1 + sin v); if the pole where this is
               singular lies inside the face, the result is short by the whole sphere's area
@@ -27,8 +28,9 @@ from decomp.boundary.edges import RawEdge
 from decomp.boundary.faces import RawFace
 from decomp.boundary.loops import HalfEdge
 from decomp.boundary.torus_loops import torus_angles, winding
-from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Carrier, Torus
 from decomp.carriers.axial import axial_split
+from decomp.carriers.base import Border
 from decomp.curves.traced import TracedCurve
 from decomp.vectors import Array, cross, dot, norm
 
@@ -112,30 +114,19 @@ def face_integrals(
         vector_area += s * cross(track.points - origin, track.steps).sum(axis=0) / 2
 
     wholes = 0
-    match carrier:
-        case Plane():
-            area = float(vector_area @ carrier.normal_vector)
-            flux = float(carrier.signed_distance(origin)) * -area
-        case Cylinder():
-            area = -sum(s * _cylinder_term(carrier, t, origin) for s, t in signed)
-            flux = float((carrier.point - origin) @ vector_area) + carrier.radius * area
-        case Cone():
-            area = -sum(s * _cone_term(carrier, t) for s, t in signed)
-            flux = float((carrier.apex - origin) @ vector_area)
-        case Sphere():
-            area = 0.0
-            if pole is not None:
-                area = -sum(s * _sphere_term(carrier, t, pole) for s, t in signed)
+    if isinstance(carrier, Torus):
+        border = torus_border(face, carrier, edges, signed)
+        area, cosine, wholes = _torus_integrals(carrier, border)
+        support = carrier.major * cosine + carrier.minor * area
+    else:
+        terms = [
+            (s, carrier.border_terms(Border(t.points, t.steps), origin, pole)) for s, t in signed
+        ]
+        area, support = (sum(s * term[k] for s, term in terms) for k in (0, 1))
+        if carrier.closed:
             wholes = int(area <= 0)
-            area += wholes * 4 * np.pi * carrier.radius**2
-            flux = float((carrier.centre - origin) @ vector_area) + carrier.radius * area
-        case Torus():
-            border = torus_border(face, carrier, edges, signed)
-            area, cosine, wholes = _torus_integrals(carrier, border)
-            flux = float((carrier.centre - origin) @ vector_area)
-            flux += carrier.major * cosine + carrier.minor * area
-        case _:
-            raise TypeError(f"no area formula for a {carrier.kind}")
+            area, support = area + wholes * carrier.whole[0], support + wholes * carrier.whole[1]
+    flux = float((carrier.packed()[:3] - origin) @ vector_area) + support
     return FaceIntegrals(float(area), sign * float(flux), wholes)
 
 
@@ -171,32 +162,6 @@ def _track(edge: RawEdge, panels: Array, nodes: Array, weights: Array) -> Track:
     t = edge.curve.wrapped(t)
     steps = edge.curve.derivative(t) * (half * weights).ravel()[:, None]
     return Track(edge.curve.point(t), steps)
-
-
-def _angle_steps(point: Array, axis: Array, track: Track) -> tuple[Array, Array, Array]:
-    """Height, distance from the axis and d(angle) about it along a track."""
-    z, rho, radial = axial_split(track.points, point, axis)
-    around = cross(axis, radial)
-    return z, rho, dot(around, track.steps)
-
-
-def _cylinder_term(cylinder: Cylinder, track: Track, origin: Array) -> float:
-    z, _, arc = _angle_steps(cylinder.point, cylinder.axis, track)
-    middle = float((origin - cylinder.point) @ cylinder.axis)
-    return float(((z - middle) * arc).sum())
-
-
-def _cone_term(cone: Cone, track: Track) -> float:
-    slant = norm(track.points - cone.apex)
-    _, _, arc = _angle_steps(cone.apex, cone.axis, track)
-    # d(angle) = arc / rho with rho = slant sin(angle)
-    return float((slant * arc).sum()) / 2
-
-
-def _sphere_term(sphere: Sphere, track: Track, pole: Array) -> float:
-    z, rho, arc = _angle_steps(sphere.centre, pole, track)
-    # r^2 (1 + z/r) arc / rho, with rho^2 = (r - z)(r + z)
-    return float((sphere.radius * rho * arc / (sphere.radius - z)).sum())
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,5 +246,6 @@ def _unwrapped(
     where, moves = np.concatenate(points), np.concatenate(steps)
     start = wound.angles[0]
     angles = np.unwrap(np.concatenate([start[None, :], torus_angles(torus, where)]), axis=0)[1:]
-    _, rho, arc = _angle_steps(torus.centre, torus.axis, Track(where, moves))
+    _, rho, out = axial_split(where, torus.centre, torus.axis)
+    arc = dot(cross(torus.axis, out), moves)
     return angles, arc / rho, wound.turns, start

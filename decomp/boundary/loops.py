@@ -10,7 +10,7 @@ import numpy as np
 
 from decomp.boundary.edges import Flank, RawEdge
 from decomp.boundary.member import Member
-from decomp.carriers import Carrier, Cone
+from decomp.carriers import Carrier
 from decomp.errors import ContactError
 from decomp.places import place
 from decomp.vectors import Array, frame, norm
@@ -231,8 +231,9 @@ def _arriving(edge: RawEdge, at_start: bool) -> Flank:
 
 def _normal(carrier: Carrier, point: Array) -> Array:
     """A direction to look from: the outward normal, at a cone's apex against its axis."""
-    if isinstance(carrier, Cone) and float(norm(point - carrier.apex)) <= 1e-300:
-        return -carrier.axis
+    tip, inward = carrier.tip, carrier.tip_axis
+    if tip is not None and inward is not None and float(norm(point - tip)) <= 1e-300:
+        return -inward
     return carrier.normal(point)
 
 

@@ -16,12 +16,13 @@ import numpy as np
 from decomp.boundary.edges import RawEdge
 from decomp.boundary.loops import HalfEdge, LoopSet
 from decomp.boundary.member import Member
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Torus
 from decomp.carriers.axial import axial_split
 from decomp.csg.extents import overlap
 from decomp.curves import crossing_candidates, crossings
 from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
+from decomp.curves.intersect.planes import ellipse
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
@@ -68,9 +69,8 @@ class Walker:
     def clearest_direction(self) -> Array:
         """On a sphere: the unit direction from its centre that is farthest from all edges."""
         sphere = self.member.form.carriers[self.loops.carrier]
-        assert isinstance(sphere, Sphere)
         directions = _spread_directions(1000)
-        edge_points = self._edge_points() - sphere.centre
+        edge_points = self._edge_points() - sphere.place
         nearest = (directions @ edge_points.T).max(axis=1)
         return np.asarray(directions[int(np.argmin(nearest))])
 
@@ -78,9 +78,9 @@ class Walker:
     def pole(self) -> Array:
         """On a sphere: the unit direction of the point farthest from all faces of the set."""
         sphere = self.member.form.carriers[self.loops.carrier]
-        assert isinstance(sphere, Sphere)
+        centre, radius = sphere.place, sphere.width
         directions = _spread_directions(2000)
-        points = sphere.centre + sphere.radius * directions
+        points = centre + radius * directions
         off = ~self.on_face(points)
         edge_points = self._edge_points()
         outside = [directions[off]]
@@ -88,11 +88,11 @@ class Walker:
             edge = self.edges[half.edge]
             flank = next(f for f in edge.flanks if f.carrier == self.loops.carrier)
             for step in (1e-2, 1e-3, 1e-4):
-                beyond = edge.point - step * sphere.radius * flank.direction
-                outside.append(((beyond - sphere.centre) / norm(beyond - sphere.centre))[None, :])
+                beyond = edge.point - step * radius * flank.direction
+                outside.append(((beyond - centre) / norm(beyond - centre))[None, :])
         candidates = np.concatenate(outside)
-        candidates = candidates[~self.on_face(sphere.centre + sphere.radius * candidates)]
-        gaps = [norm(edge_points - (sphere.centre + sphere.radius * c)).min() for c in candidates]
+        candidates = candidates[~self.on_face(centre + radius * candidates)]
+        gaps = [norm(edge_points - (centre + radius * c)).min() for c in candidates]
         return np.asarray(candidates[int(np.argmax(gaps))])
 
     def on_face(self, points: Array) -> Bools:
@@ -103,22 +103,15 @@ class Walker:
         """The ray that leads away from `point` towards the outermost loop; None on a torus."""
         carrier = self.member.form.carriers[self.loops.carrier]
         span = (0.0, 4 * self.reach)
-        match carrier:
-            case Plane():
-                return Line(point, perpendicular(carrier.normal_vector), domain=span)
-            case Cylinder():
-                return Line(point, carrier.axis, domain=span)
-            case Cone():
-                away = point - carrier.apex
-                if float(norm(away)) == 0.0:
-                    return None
-                return Line(point, away / norm(away), domain=span)
-            case Sphere():
-                x = (point - carrier.centre) / carrier.radius
-                y = self.pole - (self.pole @ x) * x
-                length = float(norm(y))
-                side = y / length if length > 1e-12 else perpendicular(x)
-                return Circle(carrier.centre, x, side, carrier.radius)
+        ruling = carrier.ruling(point)
+        if ruling is not None:
+            return Line(point, ruling, domain=span)
+        if carrier.needs_pole:
+            x = (point - carrier.place) / carrier.width
+            y = self.pole - (self.pole @ x) * x
+            length = float(norm(y))
+            side = y / length if length > 1e-12 else perpendicular(x)
+            return Circle(carrier.place, x, side, carrier.width)
         return None
 
     def clear_of_vertices(self, point: Array) -> Array:
@@ -148,20 +141,20 @@ class Walker:
         along = ray.derivative(np.array(ray.domain[0]))
         across = cross(carrier.normal(point), along / norm(along))
         side: Curve
-        match carrier:
-            case Cylinder() | Cone():
-                base = carrier.point if isinstance(carrier, Cylinder) else carrier.apex
-                height, rho, out = axial_split(point, base, carrier.axis)
-                around = cross(carrier.axis, out)
-                side = Circle(base + height * carrier.axis, out, around, float(rho))
-            case Sphere():
-                out = (point - carrier.centre) / carrier.radius
-                side = Circle(carrier.centre, out, across, carrier.radius)
-            case _:
-                side = Line(point, across, domain=(0.0, 4 * self.reach))
-        low, high = side.domain
-        first = min((t for t, _ in self._cuts(side) if t - low > 1e-9 * (high - low)), default=high)
-        return side.point(np.array(low + fraction * (first - low)))
+        level = carrier.level(point)
+        if level is not None:
+            side = ellipse(*level)
+        elif carrier.needs_pole:
+            out = (point - carrier.place) / carrier.width
+            side = Circle(carrier.place, out, across, carrier.width)
+        else:
+            side = Line(point, across, domain=(0.0, 4 * self.reach))
+        start = float(side.parameter(point))
+        gaps = (
+            (t - start) % side.period if side.closed else t - start for t, _ in self._cuts(side)
+        )
+        gap = min((gap for gap in gaps if gap > 1e-9 * side.period), default=side.period)
+        return side.point(side.wrapped(np.array(start + fraction * gap)))
 
     def _vertex_gap(self, ray: Curve) -> float:
         """Least distance of the ends of edges from a ray; infinite where there are none."""
@@ -200,16 +193,7 @@ class Walker:
     def height(self, points: Array) -> Array:
         """How far up points lie in the sense of `upward`."""
         carrier = self.member.form.carriers[self.loops.carrier]
-        match carrier:
-            case Plane():
-                return np.asarray(points @ perpendicular(carrier.normal_vector))
-            case Cylinder():
-                return np.asarray(points @ carrier.axis)
-            case Cone():
-                return norm(points - carrier.apex)
-            case Sphere():
-                return np.asarray(points @ self.pole)
-        return np.zeros(len(points))
+        return points @ self.pole if carrier.needs_pole else carrier.rise(points)
 
     def first_loop(self, ray: Curve, from_edge: bool) -> int | None:
         """The loop that ends the face into which the ray leads.

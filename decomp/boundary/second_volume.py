@@ -9,9 +9,9 @@ so a face that is not what its loops bound makes them differ.
 A is a carrier's point less the origin; r(u) is the unit vector across the axis k at angle u.
 
     plane     v across u in the plane; A.e v + (u x.e) v + (y.e) v^2 / 2, times n.e
-    cylinder  R r.e ((A.e + R r.e) v + k.e v^2 / 2)
+    cylinder  n.e ((A.e + s.e) v + k.e v^2 / 2), s the point of the section
     cone      sin(angle) n.e (A.e v^2 / 2 + d.e v^3 / 3), d the ruling
-    sphere    powers of sin v and cos v, see `_sphere_term`
+    sphere    powers of sin v and cos v, see `Sphere.second_term`
     torus     the same, see `torus_flux`
 """
 
@@ -20,43 +20,30 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.boundary.integrals import TorusBorder, Track
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
-from decomp.carriers.axial import axial_split
-from decomp.vectors import Array, cross, dot, frame, norm
+from decomp.carriers import Carrier, Torus
+from decomp.carriers.base import Border
+from decomp.vectors import Array, frame
 
 E = np.array([0.48, 0.6, 0.64])
 """The direction of the field: a unit vector along no axis."""
 
 
 def second_flux(
-    carrier: Plane | Cylinder | Cone | Sphere,
-    border: Track,
-    origin: Array,
-    pole: Array | None,
-    wholes: int,
+    carrier: Carrier, border: Track, origin: Array, pole: Array | None, wholes: int
 ) -> float:
     """The integral of ((p - origin) . e)(n . e) over a face, n the carrier's normal.
 
     Args:
-        carrier: the face's carrier.
+        carrier: the face's carrier, no torus.
         border: quadrature along the face's loops, with the face on the left seen along the
             carrier's normal.
         origin: (3,).
         pole: on a sphere with edges, a unit direction away from them.
         wholes: 1 if the pole is inside the face, or the face is the whole sphere.
     """
-    match carrier:
-        case Plane():
-            return -_plane_term(carrier, border, origin)
-        case Cylinder():
-            return -_cylinder_term(carrier, border, origin)
-        case Cone():
-            return -_cone_term(carrier, border, origin)
-        case Sphere():
-            whole = wholes * 4 / 3 * np.pi * carrier.radius**3
-            if pole is None:
-                return whole
-            return whole - _sphere_term(carrier, border, pole, origin)
+    term = carrier.second_term(Border(border.points, border.steps), origin, pole, E)
+    # over a whole closed carrier each direction has a third of the integral of (p - c) . n
+    return term + wholes * carrier.whole[1] / 3 if wholes else term
 
 
 def torus_flux(torus: Torus, border: TorusBorder, origin: Array, wholes: int) -> float:
@@ -99,53 +86,3 @@ def torus_flux(torus: Torus, border: TorusBorder, origin: Array, wholes: int) ->
 
     low, high, turns = border.cut
     return flux - 2 * np.pi * turns * (along_cut(high) - along_cut(low))
-
-
-def _plane_term(plane: Plane, track: Track, origin: Array) -> float:
-    x, y = frame(plane.normal_vector)
-    away = track.points - plane.point
-    u, v, du = away @ x, away @ y, track.steps @ x
-    inner = (float((plane.point - origin) @ E) + u * float(x @ E)) * v + float(y @ E) * v**2 / 2
-    return float(plane.normal_vector @ E) * float(inner @ du)
-
-
-def _cylinder_term(cylinder: Cylinder, track: Track, origin: Array) -> float:
-    v, rho, out = axial_split(track.points, cylinder.point, cylinder.axis)
-    du = dot(cross(cylinder.axis, out), track.steps) / rho
-    across = out @ E
-    start = float((cylinder.point - origin) @ E) + cylinder.radius * across
-    inner = start * v + float(cylinder.axis @ E) * v**2 / 2
-    return float((cylinder.radius * across * inner) @ du)
-
-
-def _cone_term(cone: Cone, track: Track, origin: Array) -> float:
-    _, _, out = axial_split(track.points, cone.apex, cone.axis)
-    v = norm(track.points - cone.apex)
-    arc = dot(cross(cone.axis, out), track.steps)
-    sine, cosine = np.sin(cone.angle), np.cos(cone.angle)
-    normal, ruling = cosine * out - sine * cone.axis, sine * out + cosine * cone.axis
-    start = float((cone.apex - origin) @ E)
-    # du = arc / rho, with rho = v sin(angle)
-    inner = start * v / 2 + (ruling @ E) * v**2 / 3
-    return float((normal @ E * inner) @ arc)
-
-
-def _sphere_term(sphere: Sphere, track: Track, pole: Array, origin: Array) -> float:
-    """G is zero at the pole's antipode, where u has no meaning.
-
-    With n = cos v r + sin v k, a = r.e and b = k.e the integrals over v from -pi/2 are
-
-        cos v n.e       a (v / 2 + s c / 2 + pi / 4) - b c^2 / 2
-        cos v (n.e)^2   a^2 (s - s^3 / 3 + 2 / 3) - 2 a b c^3 / 3 + b^2 (s^3 + 1) / 3
-
-    with s = sin v and c = cos v.
-    """
-    z, rho, out = axial_split(track.points, sphere.centre, pole)
-    du = dot(cross(pole, out), track.steps) / rho
-    s, c = z / sphere.radius, rho / sphere.radius
-    a, b = out @ E, float(pole @ E)
-    latitude = np.arctan2(s, c)
-    first = a * ((latitude + np.pi / 2 + s * c) / 2) - b * c**2 / 2
-    second = a**2 * (s - s**3 / 3 + 2 / 3) - 2 * a * b * c**3 / 3 + b**2 * (s**3 + 1) / 3
-    inner = float((sphere.centre - origin) @ E) * first + sphere.radius * second
-    return float(sphere.radius**2 * inner @ du)

@@ -30,9 +30,8 @@ from decomp.boundary.edges import RawEdge
 from decomp.boundary.faces import RawFace
 from decomp.boundary.integrals import Track
 from decomp.boundary.loops import HalfEdge
-from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
-from decomp.carriers.axial import axial_split
-from decomp.vectors import Array, cross, dot, frame, norm
+from decomp.carriers import Carrier
+from decomp.vectors import Array, norm
 
 BOLD = 1.0
 """A tangent that turns by more than this angle between two samples is sampled more finely."""
@@ -122,7 +121,7 @@ def turning(
                 continue
             vertex = edge.ends[1 if half.direction > 0 else 0]
             tip = samples(half.edge)[0][-1 if half.direction > 0 else 0]
-            if isinstance(carrier, Cone) and float(norm(tip - carrier.apex)) <= near:
+            if carrier.tip is not None and float(norm(tip - carrier.tip)) <= near:
                 total += np.pi  # from one ruling to the other, past the apex
             elif abs(turn) > np.pi - CUSP:
                 total += abs(turn)
@@ -148,7 +147,7 @@ def _angles(
     ends = np.cumsum([len(points) for points, _ in found])[:-1]
     points = np.concatenate([points for points, _ in found])
     tangents = np.concatenate([tangents for _, tangents in found])
-    one, other = _frames(carrier, points, tangents, pole)
+    one, other = carrier.in_frames(points, tangents, pole)
     parts = zip(np.split(one, ends), np.split(other, ends), strict=True)
     result = []
     for half, (along, across), (where, _) in zip(halves, parts, found, strict=True):
@@ -157,45 +156,12 @@ def _angles(
             edge = edges[half.edge]
             t = edge.curve.wrapped(np.linspace(edge.start, edge.end, FINE))
             where = edge.curve.point(t)
-            along, across = _frames(carrier, where, edge.curve.derivative(t), pole)
+            along, across = carrier.in_frames(where, edge.curve.derivative(t), pole)
             angles = np.arctan2(half.direction * face.outward * across, half.direction * along)
-        if isinstance(carrier, Cone):
-            # at the apex there is no frame
-            angles = angles[norm(where - carrier.apex) > near]
+        if carrier.tip is not None:  # where there is no frame
+            angles = angles[norm(where - carrier.tip) > near]
         result.append(angles if half.direction > 0 else angles[::-1])
     return result
-
-
-def _frames(
-    carrier: Carrier, points: Array, tangents: Array, pole: Array | None
-) -> tuple[Array, Array]:
-    """Coordinates of tangents in frames that are right-handed about the carrier's normal."""
-    match carrier:
-        case Plane():
-            x, y = frame(carrier.normal_vector)
-            return dot(tangents, x), dot(tangents, y)
-        case Sphere():
-            assert pole is not None
-            # seen from the pole the plane has the other sense
-            y, x = frame(pole)
-            n = (points - carrier.centre) / carrier.radius
-            height, rise = dot(n, pole), dot(tangents, pole)
-            moved = tangents + n * (rise / (1 - height))[..., None]
-            return dot(moved, x), dot(moved, y)
-        case Torus():
-            z, rho, radial = axial_split(points, carrier.centre, carrier.axis)
-            around = cross(carrier.axis, radial)
-            out = (rho - carrier.major) / carrier.minor
-            tube = (out[..., None] * carrier.axis) - (z / carrier.minor)[..., None] * radial
-            return dot(tangents, around), dot(tangents, tube)
-        case Cylinder():
-            _, _, radial = axial_split(points, carrier.point, carrier.axis)
-            return dot(tangents, cross(carrier.axis, radial)), dot(tangents, carrier.axis)
-        case Cone():
-            _, _, radial = axial_split(points, carrier.apex, carrier.axis)
-            ruling = np.cos(carrier.angle) * carrier.axis + np.sin(carrier.angle) * radial
-            return dot(tangents, cross(carrier.axis, radial)), dot(tangents, ruling)
-    raise TypeError(f"no frames on a {carrier.kind}")
 
 
 def _wrapped(angle: Array | float) -> Array:

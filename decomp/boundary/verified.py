@@ -20,7 +20,7 @@ from decomp.boundary.second_volume import second_flux, torus_flux
 from decomp.boundary.topology import Vertex
 from decomp.boundary.torus_loops import genus, winding
 from decomp.boundary.turning import Turning, sampler, turning
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Torus
 from decomp.errors import GeometryError
 from decomp.vectors import Array
 
@@ -74,7 +74,7 @@ def refuse_wrong_turning(
         if found is None:
             continue
         inside = covered.count(index)
-        if isinstance(carrier, Sphere):
+        if carrier.needs_pole:
             inside = 2 * integral.wholes
         _refuse_turns(member, face, found, inside, characteristic(face, member, edges))
         for vertex, angle in found.corners:
@@ -129,7 +129,6 @@ def refuse_wrong_volume(
             border = torus_border(face, carrier, edges, signed)
             flux = torus_flux(carrier, border, form.centre, integral.wholes)
         else:
-            assert isinstance(carrier, (Plane, Sphere, Cylinder, Cone))
             pole = poles.get((face.carrier, face.outward))
             flux = second_flux(carrier, _border(face, track_of), form.centre, pole, integral.wholes)
         second += face.outward * flux

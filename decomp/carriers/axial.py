@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.vectors import Array, dot, norm, perpendicular
+from decomp.vectors import Array, cross, dot, norm, perpendicular
 
 
 def axial_split(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Array]:
@@ -25,6 +25,67 @@ def axial_split(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Arra
         clear[..., None], radial / np.where(clear, rho, 1.0)[..., None], perpendicular(axis)
     )
     return z, rho, outward
+
+
+def axial_rows(rows: Array, p: Array) -> tuple[Array, Array]:
+    """Height and distance (m, n) of points p (n, 3) from the axes of carriers' rows (m, ROW)."""
+    away = p[None, :, :] - rows[:, None, :3]
+    axis = rows[:, None, 3:6]
+    z = dot(away, axis)
+    return z, norm(away - z[..., None] * axis)
+
+
+def axial_line(rows: Array, origin: Array, direction: Array) -> tuple[Array, Array, Array, Array]:
+    """Products (m,) of a line's origin, seen from carriers' points, and its unit direction.
+
+    direction . axis, origin . direction, origin . axis, origin . origin.
+    """
+    away, axis = origin - rows[:, :3], rows[:, 3:6]
+    return axis @ direction, away @ direction, dot(away, axis), dot(away, away)
+
+
+def straight_box(point: Array, axis: Array, reach: Array) -> Array:
+    """Corners (2, 3) of the box around what reaches so far (3,) from a line, infinite along it."""
+    flat = axis == 0.0
+    low, high = np.where(flat, point - reach, -np.inf), np.where(flat, point + reach, np.inf)
+    return np.array([low, high])
+
+
+def round_reach(axis: Array, radius: float) -> Array:
+    """How far (3,) a circle about an axis reaches along the coordinates."""
+    return np.asarray(radius * np.sqrt(np.maximum(0.0, 1 - axis**2)))
+
+
+def circle_through(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Array, float, float]:
+    """The circle about an axis through p (3,), from there on: see `Carrier.level`."""
+    z, rho, out = axial_split(p, point, axis)
+    return point + z * axis, out, cross(axis, out), float(rho), float(rho)
+
+
+def box_between(point: Array, axis: Array, parts: Array, reach: Array) -> Array:
+    """Corners (2, 3) of the box around a cylinder between the heights of some boxes (k, 6).
+
+    Args:
+        point: of the axis, (3,).
+        axis: unit direction, (3,).
+        parts: lower and upper corners.
+        reach: how far (3,) the section reaches along the coordinates.
+    """
+    centres = point + heights(point, axis, parts)[:, None] * axis
+    return np.array([(centres - reach).min(axis=0), (centres + reach).max(axis=0)])
+
+
+def heights(point: Array, axis: Array, parts: Array) -> Array:
+    """Least and greatest height (2,) along an axis of the corners of boxes (k, 6)."""
+    middle, half = (parts[:, :3] + parts[:, 3:]) / 2, (parts[:, 3:] - parts[:, :3]) / 2
+    height, spread = (middle - point) @ axis, half @ np.abs(axis)
+    return np.array([(height - spread).min(), (height + spread).max()])
+
+
+def odd_side(axis: Array) -> Array:
+    """A unit vector across an axis, in a direction that is along no other carrier's symmetry."""
+    x = perpendicular(axis)
+    return np.asarray(np.cos(0.7391) * x + np.sin(0.7391) * cross(axis, x))
 
 
 def axis_deviation(point: Array, axis: Array, point2: Array, axis2: Array, reach: float) -> float:

@@ -1,4 +1,4 @@
-"""The five carriers as compiled scalar kernels: signed distance, foot, normal.
+"""The carriers as compiled scalar kernels: signed distance, foot, normal.
 
 Same formulas as `decomp.carriers`, for one carrier and one point at a time. A carrier is a row
 of a `CarrierTable`; points and vectors are three floats.
@@ -12,14 +12,21 @@ from math import hypot, inf, sqrt
 
 import numpy as np
 
-from decomp.carriers import Carrier
+from decomp.carriers.base import ROW, Carrier
+from decomp.carriers.compiled_ellipse import (
+    elliptic_bend,
+    elliptic_distance,
+    elliptic_foot,
+    elliptic_normal,
+)
+from decomp.carriers.kinds import codes_of
 from decomp.kernels.compiled import inlined, inner
 from decomp.kernels.records import Record
 from decomp.vectors import Array, Ints
 
 Triple = tuple[float, float, float]
 
-PLANE, SPHERE, CYLINDER, CONE, TORUS = range(5)
+PLANE, SPHERE, CYLINDER, CONE, TORUS, ELLIPTIC_CYLINDER = range(6)
 TINY = 1e-300
 ON_AXIS = 1e-30
 """Square of the angle at the reference point below which a point counts as on the axis."""
@@ -27,16 +34,20 @@ ON_AXIS = 1e-30
 
 @dataclass(frozen=True, eq=False)
 class CarrierTable(Record):
-    """Carriers as arrays: `codes` (n,) and `packed` (n, 8), see `Carrier.packed`."""
+    """Carriers as arrays: `codes` (n,) and `packed` (n, ROW), see `Carrier.packed`."""
 
     codes: Ints
     packed: Array
 
 
 def carrier_table(carriers: Sequence[Carrier]) -> CarrierTable:
-    """Lay out carriers for the kernels."""
-    codes = np.array([c.code for c in carriers], dtype=np.int64)
-    packed = np.array([c.packed() for c in carriers], dtype=np.float64).reshape(-1, 8)
+    """Lay out carriers for the kernels, which trust their codes.
+
+    Raises:
+        TypeError: a carrier is of an unknown kind.
+    """
+    codes = codes_of(carriers)
+    packed = np.array([c.packed() for c in carriers], dtype=np.float64).reshape(-1, ROW)
     return CarrierTable(codes, packed)
 
 
@@ -93,6 +104,8 @@ def signed_distance(table: CarrierTable, c: int, x: float, y: float, z: float) -
     if code == SPHERE:
         vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
         return float(sqrt(vx * vx + vy * vy + vz * vz) - packed[c, 6])
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_distance(packed, c, x, y, z)
     height, rho = axial(packed, c, x, y, z)
     if code == CYLINDER:
         return float(rho - packed[c, 6])
@@ -117,6 +130,8 @@ def normal(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
         if length == 0.0:
             return 0.0, 0.0, 1.0
         return vx / length, vy / length, vz / length
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_normal(packed, c, x, y, z)
     ux, uy, uz = radial(packed, c, x, y, z)
     if code == CYLINDER:
         return ux, uy, uz
@@ -145,6 +160,8 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
         nx, ny, nz = normal(table, c, x, y, z)
         r = packed[c, 6]
         return px + r * nx, py + r * ny, pz + r * nz
+    if code == ELLIPTIC_CYLINDER:
+        return elliptic_foot(packed, c, x, y, z)
     ux, uy, uz = radial(packed, c, x, y, z)
     height, rho = axial(packed, c, x, y, z)
     if code == CYLINDER:
@@ -165,11 +182,52 @@ def foot(table: CarrierTable, c: int, x: float, y: float, z: float) -> Triple:
 
 
 @inner
+def normal_curvature(
+    table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
+) -> float:
+    """Curvature of carrier c at a point on it along a unit tangent, see `Carrier`."""
+    packed, code = table.packed, table.codes[c]
+    if code == PLANE:
+        return 0.0
+    if code == SPHERE:
+        return float(1.0 / packed[c, 6])
+    ax, ay, az = packed[c, 3], packed[c, 4], packed[c, 5]
+    if code == ELLIPTIC_CYLINDER:
+        nx, ny, nz = elliptic_normal(packed, c, x, y, z)
+        wx, wy, wz = ay * nz - az * ny, az * nx - ax * nz, ax * ny - ay * nx
+        around = wx * dx + wy * dy + wz * dz
+        return float(around * around * elliptic_bend(packed, c, x, y, z))
+    ux, uy, uz = radial(packed, c, x, y, z)
+    wx, wy, wz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
+    around = wx * dx + wy * dy + wz * dz
+    if code == CYLINDER:
+        return float(around * around / packed[c, 6])
+    rho = (x - packed[c, 0]) * ux + (y - packed[c, 1]) * uy + (z - packed[c, 2]) * uz
+    if code == CONE:
+        return float(around * around * packed[c, 7] / rho)
+    nx, ny, nz = normal(table, c, x, y, z)
+    sx, sy, sz = wy * nz - wz * ny, wz * nx - wx * nz, wx * ny - wy * nx
+    across = sx * dx + sy * dy + sz * dz
+    parallel = (nx * ux + ny * uy + nz * uz) / rho
+    return float(around * around * parallel + across * across / packed[c, 7])
+
+
+@inner
+def at_tip(table: CarrierTable, c: int, x: float, y: float, z: float, near: float) -> bool:
+    """Whether a point is within `near` of carrier c's tip, which only cones have."""
+    if table.codes[c] != CONE:
+        return False
+    packed = table.packed
+    vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
+    return sqrt(vx * vx + vy * vy + vz * vz) <= near
+
+
+@inner
 def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radius: float) -> float:
     """How far from the foot of a point the feet of points within `radius` of it can be.
 
-    Projection to a convex body does not spread feet. From inside a circle of radius r, at distance
-    rho from its centre, it spreads them by r / rho at most.
+    Projection to a convex body does not spread feet of points outside. From inside a circle of
+    radius r, at distance rho from its centre, it spreads them by r / rho at most.
     """
     packed, code = table.packed, table.codes[c]
     if code == PLANE:
@@ -177,6 +235,8 @@ def foot_spread(table: CarrierTable, c: int, x: float, y: float, z: float, radiu
     if code == SPHERE:
         vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
         clear = sqrt(vx * vx + vy * vy + vz * vz) - radius
+    elif code == ELLIPTIC_CYLINDER:
+        return radius if elliptic_distance(packed, c, x, y, z) >= radius else inf
     elif code == CYLINDER:
         clear = axial(packed, c, x, y, z)[1] - radius
     else:

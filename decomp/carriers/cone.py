@@ -8,10 +8,19 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers.axial import axial_split
-from decomp.carriers.base import Carrier, pack
+from decomp.carriers.axial import (
+    axial_line,
+    axial_rows,
+    axial_split,
+    circle_through,
+    heights,
+    odd_side,
+    round_reach,
+)
+from decomp.carriers.base import Border, Carrier, Level, pack
+from decomp.carriers.charts import Chart, ConeChart, ConeStripChart
 from decomp.similarity import Similarity
-from decomp.vectors import Array, cross, dot, norm
+from decomp.vectors import Array, cross, dot, frame, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,12 +38,26 @@ class Cone(Carrier):
     kind: ClassVar[str] = "cone"
     code: ClassVar[int] = 3
     degree: ClassVar[int] = 2
+    locus: ClassVar[int | None] = 1
 
     def signed_distance(self, p: Array) -> Array:
         z, rho, _ = axial_split(p, self.apex, self.axis)
         along = rho * sin(self.angle) + z * cos(self.angle)
         across = rho * cos(self.angle) - z * sin(self.angle)
         return np.where(along > 0, across, np.hypot(rho, z))
+
+    @classmethod
+    def distances_of(cls, rows: Array, p: Array) -> Array:
+        z, rho = axial_rows(rows, p)
+        sine, cosine = rows[:, None, 6], rows[:, None, 7]
+        along = rho * sine + z * cosine
+        return np.where(along > 0, rho * cosine - z * sine, np.hypot(rho, z))
+
+    @classmethod
+    def along_line(cls, rows: Array, origin: Array, direction: Array) -> tuple[Array, Array, Array]:
+        along, straight, lift, square = axial_line(rows, origin, direction)
+        cosine2 = rows[:, 7] ** 2
+        return cosine2 - along**2, straight * cosine2 - lift * along, square * cosine2 - lift**2
 
     def foot(self, p: Array) -> Array:
         z, rho, outward = axial_split(p, self.apex, self.axis)
@@ -69,6 +92,79 @@ class Cone(Carrier):
 
     def features(self, reach: float) -> Array:
         return np.concatenate([self.apex / reach, self.axis, [self.angle]])
+
+    @property
+    def tip(self) -> Array | None:
+        return self.apex
+
+    def box_around(self, parts: Array) -> Array | None:
+        if not len(parts):
+            return None
+        ends = heights(self.apex, self.axis, parts)
+        ends[0] = min(ends[0], 0.0)  # a face around the apex has no edge there
+        centres = self.apex + ends[:, None] * self.axis
+        radii = np.maximum(ends, 0.0) * np.tan(self.angle)
+        reach = np.array([round_reach(self.axis, float(radius)) for radius in radii])
+        return np.array([(centres - reach).min(axis=0), (centres + reach).max(axis=0)])
+
+    def far_points(self, centre: Array, radius: float) -> list[Array]:
+        start = self.apex + 4 * radius * self.axis
+        return [self.foot(start + 8 * radius * odd_side(self.axis))]
+
+    def ruling(self, point: Array) -> Array | None:
+        away = point - self.apex
+        length = float(norm(away))
+        return away / length if length > 0.0 else None
+
+    def rise(self, points: Array) -> Array:
+        return norm(points - self.apex)
+
+    def border_terms(
+        self, border: Border, origin: Array, pole: Array | None
+    ) -> tuple[float, float]:
+        slant = norm(border.points - self.apex)
+        _, _, out = axial_split(border.points, self.apex, self.axis)
+        # W = slant^2 sin(angle) / 2 and d(angle) = arc / rho, with rho = slant sin(angle)
+        return -float((slant * dot(cross(self.axis, out), border.steps)).sum()) / 2, 0.0
+
+    def second_term(self, border: Border, origin: Array, pole: Array | None, field: Array) -> float:
+        _, _, out = axial_split(border.points, self.apex, self.axis)
+        v = norm(border.points - self.apex)
+        arc = dot(cross(self.axis, out), border.steps)
+        sine, cosine = np.sin(self.angle), np.cos(self.angle)
+        normal, ruling = cosine * out - sine * self.axis, sine * out + cosine * self.axis
+        start = float((self.apex - origin) @ field)
+        # du = arc / rho, with rho = v sin(angle)
+        inner = start * v / 2 + (ruling @ field) * v**2 / 3
+        return -float((normal @ field * inner) @ arc)
+
+    def in_frames(self, points: Array, tangents: Array, pole: Array | None) -> tuple[Array, Array]:
+        _, _, out = axial_split(points, self.apex, self.axis)
+        ruling = np.cos(self.angle) * self.axis + np.sin(self.angle) * out
+        return dot(tangents, cross(self.axis, out)), dot(tangents, ruling)
+
+    @property
+    def tip_axis(self) -> Array | None:
+        return self.axis
+
+    def around_tip(self, step: float) -> Array:
+        x, y = frame(self.axis)
+        angles = np.linspace(0.3, 0.3 + 2 * np.pi, 12, endpoint=False)[:, None]
+        side = np.cos(angles) * x + np.sin(angles) * y
+        return np.asarray(
+            self.apex + step * (np.cos(self.angle) * self.axis + np.sin(self.angle) * side)
+        )
+
+    def level(self, point: Array) -> Level | None:
+        return Level(*circle_through(point, self.apex, self.axis))
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse" if abs(float(normal @ self.axis)) > sin(self.angle) else "hyperbola"
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        if tip:
+            return ConeChart(self.apex, self.axis, self.angle)
+        return ConeStripChart(self.apex, self.axis, self.angle, reach)
 
     def packed(self) -> Array:
         return pack(self.apex, self.axis, sin(self.angle), cos(self.angle))

@@ -7,14 +7,25 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers.axial import axial_split, axis_deviation, nearest_to_origin
-from decomp.carriers.base import Carrier, pack
+from decomp.carriers.axial import (
+    axial_line,
+    axial_rows,
+    axial_split,
+    axis_deviation,
+    circle_through,
+    nearest_to_origin,
+    round_reach,
+    straight_box,
+)
+from decomp.carriers.base import Carrier, Level, pack
+from decomp.carriers.charts import Chart, CylinderChart
+from decomp.carriers.straight_sides import StraightSides
 from decomp.similarity import Similarity
-from decomp.vectors import Array, cross, dot
+from decomp.vectors import Array, cross, dot, norm
 
 
 @dataclass(frozen=True, eq=False)
-class Cylinder(Carrier):
+class Cylinder(StraightSides):
     """The cylinder about the line through `point` along unit `axis`; that line is its
     reflexive locus."""
 
@@ -25,10 +36,20 @@ class Cylinder(Carrier):
     kind: ClassVar[str] = "cylinder"
     code: ClassVar[int] = 2
     degree: ClassVar[int] = 2
+    locus: ClassVar[int | None] = 1
 
     def signed_distance(self, p: Array) -> Array:
         _, rho, _ = axial_split(p, self.point, self.axis)
         return np.asarray(rho - self.radius)
+
+    @classmethod
+    def distances_of(cls, rows: Array, p: Array) -> Array:
+        return np.asarray(axial_rows(rows, p)[1] - rows[:, None, 6])
+
+    @classmethod
+    def along_line(cls, rows: Array, origin: Array, direction: Array) -> tuple[Array, Array, Array]:
+        along, straight, lift, square = axial_line(rows, origin, direction)
+        return 1 - along**2, straight - lift * along, square - lift**2 - rows[:, 6] ** 2
 
     def foot(self, p: Array) -> Array:
         z, _, outward = axial_split(p, self.point, self.axis)
@@ -58,6 +79,33 @@ class Cylinder(Carrier):
     def features(self, reach: float) -> Array:
         near = nearest_to_origin(self.point, self.axis)
         return np.concatenate([near / reach, np.abs(self.axis), [self.radius / reach]])
+
+    @property
+    def least_radius(self) -> float:
+        return self.radius
+
+    @property
+    def width(self) -> float:
+        return self.radius
+
+    @property
+    def remoteness(self) -> float:
+        return float(norm(nearest_to_origin(self.point, self.axis)))
+
+    def box(self) -> Array:
+        return straight_box(self.point, self.axis, self.section_reach())
+
+    def section_reach(self) -> Array:
+        return round_reach(self.axis, self.radius)
+
+    def level(self, point: Array) -> Level | None:
+        return Level(*circle_through(point, self.point, self.axis))
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse"
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return CylinderChart(self.point, self.axis, self.radius)
 
     def packed(self) -> Array:
         return pack(self.point, self.axis, self.radius)

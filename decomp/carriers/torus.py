@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import ceil
 from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers.axial import axial_split
-from decomp.carriers.base import Carrier, pack
+from decomp.carriers.axial import axial_rows, axial_split, round_reach
+from decomp.carriers.base import Border, Carrier, pack
+from decomp.carriers.charts import Chart, TorusChart
 from decomp.similarity import Similarity
-from decomp.vectors import Array, cross, dot, norm
+from decomp.vectors import Array, cross, dot, frame, norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,10 +30,21 @@ class Torus(Carrier):
     kind: ClassVar[str] = "torus"
     code: ClassVar[int] = 4
     degree: ClassVar[int] = 4
+    locus: ClassVar[int | None] = 1
+    closed: ClassVar[bool] = True
 
     def signed_distance(self, p: Array) -> Array:
         z, rho, _ = axial_split(p, self.centre, self.axis)
         return np.asarray(np.hypot(rho - self.major, z) - self.minor)
+
+    @classmethod
+    def distances_of(cls, rows: Array, p: Array) -> Array:
+        z, rho = axial_rows(rows, p)
+        return np.asarray(np.hypot(rho - rows[:, None, 6], z) - rows[:, None, 7])
+
+    @classmethod
+    def along_line(cls, rows: Array, origin: Array, direction: Array) -> tuple[Array, Array, Array]:
+        raise TypeError("a line meets a torus in up to four points")
 
     def foot(self, p: Array) -> Array:
         spine, outward = self._spine(p)
@@ -78,6 +91,61 @@ class Torus(Carrier):
     def features(self, reach: float) -> Array:
         lengths = np.append(self.centre, [self.major, self.minor])
         return np.concatenate([lengths / reach, np.abs(self.axis)])
+
+    @property
+    def least_radius(self) -> float:
+        return self.minor
+
+    @property
+    def width(self) -> float:
+        return self.major + self.minor
+
+    @property
+    def remoteness(self) -> float:
+        return float(norm(self.centre)) + self.major
+
+    def box(self) -> Array:
+        reach = round_reach(self.axis, self.major) + self.minor
+        return np.array([self.centre - reach, self.centre + reach])
+
+    def extreme_points(self) -> Array:
+        units = np.concatenate([np.eye(3), -np.eye(3)])
+        across = units - (units @ self.axis)[:, None] * self.axis
+        length = norm(across)
+        flat = length > 1e-12
+        spine = self.centre + self.major * across[flat] / length[flat, None]
+        both = [spine + s * self.minor * units[flat] for s in (1, -1)]
+        if flat.all():
+            return np.concatenate(both)
+        # the axis is one of them: circles, of which some points stand for all
+        x, y = frame(self.axis)
+        angles = np.linspace(0, 2 * np.pi, 64, endpoint=False)[:, None]
+        top = self.centre + self.major * (np.cos(angles) * x + np.sin(angles) * y)
+        return np.concatenate([*both, *(top + s * self.minor * self.axis for s in (1, -1))])
+
+    def border_terms(
+        self, border: Border, origin: Array, pole: Array | None
+    ) -> tuple[float, float]:
+        raise TypeError("on a torus a border has to be unwrapped")
+
+    def second_term(self, border: Border, origin: Array, pole: Array | None, field: Array) -> float:
+        raise TypeError("on a torus a border has to be unwrapped")
+
+    def in_frames(self, points: Array, tangents: Array, pole: Array | None) -> tuple[Array, Array]:
+        z, rho, radial = axial_split(points, self.centre, self.axis)
+        out = (rho - self.major) / self.minor
+        tube = (out[..., None] * self.axis) - (z / self.minor)[..., None] * radial
+        return dot(tangents, cross(self.axis, radial)), dot(tangents, tube)
+
+    def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
+        return TorusChart(self.centre, self.axis, self.major, self.minor)
+
+    def grid(self, finer: int, pole: Array | None = None) -> tuple[Array, float]:
+        tube = 8 * finer
+        around = tube * max(1, ceil(self.major / (3 * self.minor)))
+        u, v = np.meshgrid(*(2 * np.pi * np.arange(n) / n for n in (around, tube)))
+        grid = self.point(u.ravel(), v.ravel(), *frame(self.axis))
+        return grid, 2 * np.pi * self.minor / (8 * finer)
 
     def packed(self) -> Array:
         return pack(self.centre, self.axis, self.major, self.minor)

@@ -167,9 +167,11 @@ def _region_text(region: RegionBoundary, options: Mapping[str, Any]) -> list[str
         f"  {_count(len(region.faces), 'face')}",
     ]
     width = max(len(face.name) for face in region.faces)
+    carriers = [region.carriers[face.carrier].kind for face in region.faces]
+    broad = max(8, *map(len, carriers))
     lines += [
-        f"    {face.name:<{width}}  {region.carriers[face.carrier].kind:<8}  area {face.area:.9g}"
-        for face in region.faces
+        f"    {face.name:<{width}}  {kind:<{broad}}  area {face.area:.9g}"
+        for face, kind in zip(region.faces, carriers, strict=True)
     ]
     shapes = Counter((e.curve.kind, e.convexity.value) for e in region.edges)
     lines.append(f"  {_count(len(region.edges), 'edge')}{_shapes(shapes)}")

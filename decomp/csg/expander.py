@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cylinder, Sphere, Torus
-from decomp.carriers.axial import nearest_to_origin
+from decomp.carriers import Carrier
 from decomp.csg.options import Options
 from decomp.csg.placing import Placing
 from decomp.csg.primitives import Primitive
@@ -26,7 +25,7 @@ from decomp.csg.solid import (
 from decomp.errors import InputError
 from decomp.magnitude import RESOLUTION, check_length, check_magnitude
 from decomp.similarity import Similarity
-from decomp.vectors import Array, norm
+from decomp.vectors import Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -205,17 +204,10 @@ def _short_enough(name: str) -> str:
 
 def _checked(carrier: Carrier, name: str) -> Carrier:
     """A placed carrier, refused where its place or its radii are out of range."""
-    data = carrier.packed()
-    check_magnitude(data, f"the place of {name}")
-    match carrier:
-        case Sphere(centre=place, radius=least):
-            reach = float(norm(place))
-        case Cylinder(point=point, axis=axis, radius=least):
-            reach = float(norm(nearest_to_origin(point, axis)))
-        case Torus(centre=place, major=major, minor=least):
-            reach = float(norm(place)) + major
-        case _:
-            return carrier
+    check_magnitude(carrier.packed(), f"the place of {name}")
+    least, reach = carrier.least_radius, carrier.remoteness
+    if np.isinf(least):
+        return carrier
     check_length(least, f"the radius of {name}")
     if least < RESOLUTION * reach:
         raise InputError(

@@ -10,14 +10,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cylinder, Plane, Sphere, Torus
+from decomp.carriers import Carrier
+from decomp.carriers.base import EVERYWHERE
 from decomp.csg.program import Program
 from decomp.vectors import Array, Bools
 
 BOX_SLACK = 1e-6
 """Boxes are widened by this part of the model's scale, so that nothing ends on their faces."""
 
-EVERYTHING = np.array([[-np.inf] * 3, [np.inf] * 3])
+EVERYTHING = np.array(EVERYWHERE)
 NOTHING = -EVERYTHING
 
 
@@ -40,7 +41,7 @@ def extents(program: Program, carriers: tuple[Carrier, ...], slack: float) -> tu
     active = np.repeat(NOTHING[None], len(carriers), axis=0)
     for node, carrier in enumerate(program.literal):
         if carrier >= 0:
-            surface = _surface_box(carriers[carrier])
+            surface = carriers[carrier].box()
             active[carrier] = _intersection(matters[node], surface)
     return regions.reshape(-1, 2, 3) + widen, active + widen
 
@@ -58,7 +59,7 @@ def _upwards(program: Program, carriers: tuple[Carrier, ...]) -> tuple[Array, Ar
     false_box = np.empty((count, 2, 3))
     for node, carrier in enumerate(program.literal):
         if carrier >= 0:
-            true_box[node], false_box[node] = _half_space_boxes(carriers[carrier])
+            true_box[node], false_box[node] = carriers[carrier].half_space_boxes()
             continue
         parts = program.operands[program.start[node] : program.start[node + 1]]
         true_box[node] = program.boxes[node]
@@ -89,40 +90,6 @@ def _downwards(program: Program, true_box: Array, false_box: Array) -> Array:
                 matters[target] = _hull(matters[target], here)
             after = _intersection(after, boxes[k])
     return matters
-
-
-def _half_space_boxes(carrier: Carrier) -> tuple[Array, Array]:
-    """Boxes of the inside and the outside of a carrier."""
-    inside, outside = EVERYTHING.copy(), EVERYTHING.copy()
-    if isinstance(carrier, Plane):
-        k = int(np.argmax(np.abs(carrier.normal_vector)))
-        sign = carrier.normal_vector[k]
-        if abs(abs(sign) - 1.0) < 1e-15:
-            low, high = (outside, inside) if sign > 0 else (inside, outside)
-            high[1, k] = low[0, k] = carrier.point[k]
-        return inside, outside
-    return _surface_box(carrier), outside
-
-
-def _surface_box(carrier: Carrier) -> Array:
-    """A box around a carrier."""
-    match carrier:
-        case Plane():
-            inside, outside = _half_space_boxes(carrier)
-            return _intersection(inside, outside)
-        case Sphere():
-            return np.array([carrier.centre - carrier.radius, carrier.centre + carrier.radius])
-        case Torus():
-            reach = carrier.major * np.sqrt(np.maximum(0.0, 1 - carrier.axis**2)) + carrier.minor
-            return np.array([carrier.centre - reach, carrier.centre + reach])
-        case Cylinder():
-            straight = carrier.axis == 0.0
-            box = EVERYTHING.copy()
-            reach = carrier.radius * np.sqrt(np.maximum(0.0, 1 - carrier.axis**2))
-            box[0, straight] = (carrier.point - reach)[straight]
-            box[1, straight] = (carrier.point + reach)[straight]
-            return box
-    return EVERYTHING
 
 
 def _box(true_box: Array, false_box: Array, ref: int) -> Array:

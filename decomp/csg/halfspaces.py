@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from decomp.carriers import Carrier, CarrierTable, Sphere, Torus
+from decomp.carriers import Carrier, CarrierTable
 from decomp.csg.counting import refuse_too_many
 from decomp.csg.expander import Expander
 from decomp.csg.extents import BOX_SLACK, extents
@@ -197,13 +197,8 @@ def _extent(expander: Expander) -> tuple[Array, float]:
     """Middle and diagonal of a box around the primitives, of infinite ones around their points."""
     points = list(expander.bounds.values())
     for carrier in expander.carriers:
-        data = carrier.packed()
-        reach = data[6] if carrier.kind == "cylinder" else 0.0
-        if isinstance(carrier, Sphere):
-            reach = carrier.radius
-        if isinstance(carrier, Torus):
-            reach = carrier.major + carrier.minor
-        points.append(np.array([data[:3] - reach, data[:3] + reach]))
+        point, width = carrier.packed()[:3], carrier.width
+        points.append(np.array([point - width, point + width]))
     if not points:
         return np.zeros(3), 1.0
     cloud = np.concatenate(points)

@@ -36,14 +36,14 @@ def merged(
     doubts = np.array([doubt(chain, scale) for chain in steps])
     chains: list[tuple[Similarity, ...]] = []
     # Coincident carriers have nearly equal features, so nearly equal keys: one fixed projection.
-    sorted_keys: dict[int, list[tuple[float, int]]] = {}
+    sorted_keys: dict[type[Carrier], list[tuple[float, int]]] = {}
     slack = 100 * (TOLERANCE + 2 * float(doubts.max(initial=0.0)) / scale)
     # what is certain comes first, and keeps its place
     for at in np.argsort(doubts, kind="stable"):
         carrier = carriers[at]
         features = carrier.features(scale)
         key = float(features @ np.sqrt(np.arange(2, 2 + len(features))))
-        known = sorted_keys.setdefault(carrier.code, [])
+        known = sorted_keys.setdefault(type(carrier), [])
         start = bisect_left(known, (key - slack * (1 + abs(key)), -1))
         match, orientation = -1, 0
         for other_key, candidate in known[start:]:

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from decomp import carriers
+from decomp.csg.elliptic import EllipticCylinder as EllipticCylinder
+from decomp.csg.elliptic import InfiniteEllipticCylinder as InfiniteEllipticCylinder
 from decomp.csg.primitive import (
     HalfSpaces,
     around,

@@ -97,9 +97,7 @@ def _intervals(
 
 
 def _least_radius(carrier: Carrier, curve: Curve) -> float:
-    size = curve.bounding_ball()[1]
-    radius = getattr(carrier, "minor", getattr(carrier, "radius", size))
-    return min(float(radius), size)
+    return min(carrier.least_radius, curve.bounding_ball()[1])
 
 
 def _bracketed(f: Function, low: Array, high: Array) -> Array:

@@ -1,6 +1,6 @@
 """Where a straight line meets many carriers at once, in closed form.
 
-On a plane, sphere, cylinder or cone the line o + t d satisfies q t^2 + 2 h t + c = 0. A double
+On a plane or quadric the line o + t d satisfies q t^2 + 2 h t + c = 0. A double
 root is a touch; near one the line's least distance decides, as sqrt(h^2 - q c) is ill-conditioned.
 """
 
@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
+from decomp.carriers.kinds import KINDS
 from decomp.carriers.table import CarrierTable
 from decomp.curves.crossings import crossings
 from decomp.curves.line import Line
@@ -59,10 +59,10 @@ def line_crossings(
     probes = line.point(np.array([low, 0.41 * low + 0.59 * high, high]))
     inside = (np.abs(table.distances(probes, among)) <= tolerance).all(axis=1)
     contained, rest = among[inside], among[~inside]
-    tori = rest[table.kinds[rest] == Torus.code]
-    rest = rest[table.kinds[rest] != Torus.code]
+    steep = np.array([table.carriers[k].degree > 2 for k in rest], dtype=np.bool_)
+    higher, rest = rest[steep], rest[~steep]
     t, which = _quadratic_roots(line, table, rest, tolerance, touches)
-    for k in tori:
+    for k in higher:
         met = crossings(line, table.carriers[k], tolerance, partial(touches, int(k)))
         t = np.concatenate([t, met.parameters])
         which = np.concatenate([which, np.full(len(met.parameters), k)])
@@ -97,25 +97,12 @@ def _quadratic_roots(
 
 
 def _coefficients(line: Line, table: CarrierTable, among: Ints) -> tuple[Array, Array, Array]:
-    rows, kinds = table.rows[among], table.kinds[among]
-    d = line.direction
-    away = line.origin - rows[:, :3]
-    axis, first, second = rows[:, 3:6], rows[:, 6], rows[:, 7]
-    along, lift = axis @ d, np.einsum("ij,ij->i", away, axis)
-    straight, square = away @ d, np.einsum("ij,ij->i", away, away)
-    quadratic, half, constant = np.zeros(len(among)), along / 2, lift.copy()
-    ball, tube, cone = (kinds == code for code in (Sphere.code, Cylinder.code, Cone.code))
-    quadratic[ball], half[ball] = 1.0, straight[ball]
-    constant[ball] = (square - first**2)[ball]
-    quadratic[tube] = (1 - along**2)[tube]
-    half[tube] = (straight - lift * along)[tube]
-    constant[tube] = (square - lift**2 - first**2)[tube]
-    cosine2 = second**2
-    quadratic[cone] = (cosine2 - along**2)[cone]
-    half[cone] = (straight * cosine2 - lift * along)[cone]
-    constant[cone] = (square * cosine2 - lift**2)[cone]
-    assert not np.any(kinds == Torus.code)
-    half[kinds == Plane.code] = along[kinds == Plane.code] / 2
+    quadratic, half, constant = (np.empty(len(among)) for _ in range(3))
+    kinds = table.kinds[among]
+    for code in np.unique(kinds).tolist():
+        here = np.flatnonzero(kinds == code)
+        found = KINDS[code].along_line(table.rows[among[here]], line.origin, line.direction)
+        quadratic[here], half[here], constant[here] = found
     return quadratic, half, constant
 
 

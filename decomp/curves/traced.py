@@ -10,12 +10,11 @@ equations gives x' = m d with d the unit vector along n_a x n_b and
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import sin
 from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Plane
+from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.curves.newton import cross_direction, onto_pair
 from decomp.tolerance import SINGULAR
@@ -159,11 +158,8 @@ class TracedCurve(Curve):
 def _kind(a: Carrier, b: Carrier) -> str:
     """What the curve is called: conics too long for closed form are traced, but stay conics."""
     for plane, other in ((a, b), (b, a)):
-        if isinstance(plane, Plane) and isinstance(other, Cylinder):
-            return "ellipse"
-        if isinstance(plane, Plane) and isinstance(other, Cone):
-            steep = abs(float(plane.normal_vector @ other.axis))
-            return "ellipse" if steep > sin(other.angle) else "hyperbola"
+        if plane.flat:
+            return other.section_kind(plane.normal(plane.place))
     return "curve"
 
 

@@ -40,7 +40,7 @@ def load(path: str | Path) -> Model:
     Raises:
         FileError: the file cannot be read.
         ParseError: its text is wrong.
-        UnsupportedError: it uses what lies outside the five primitives and similarities.
+        UnsupportedError: it uses what lies outside the primitives and similarities.
     """
     file = path_of(path, "the model's file")
     data = _bytes(file)

@@ -9,12 +9,12 @@ MESH = (
     "verifies them"
 )
 TRIANGLES = (
-    "a file of triangles does not tell which planes, spheres, cylinders, cones and tori a solid "
-    "is made of, which decomp needs: write the solid as CSG"
+    "a file of triangles does not tell which planes, spheres, cylinders, elliptic ones, cones and "
+    "tori a solid is made of, which decomp needs: write the solid as CSG"
 )
 SURFACES = (
     "a file of a solid's surfaces holds no CSG, which decomp needs: write the solid as blocks, "
-    "spheres, cylinders, cones and tori"
+    "spheres, cylinders, elliptic ones, cones and tori"
 )
 SCAD = "flatten an OpenSCAD program first: openscad -o model.csg model.scad"
 

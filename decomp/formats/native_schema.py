@@ -6,9 +6,11 @@ from decomp.csg.primitives import (
     Block,
     Cone,
     Cylinder,
+    EllipticCylinder,
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    InfiniteEllipticCylinder,
     Primitive,
     Sphere,
     Torus,
@@ -22,9 +24,17 @@ PRIMITIVES: dict[str, tuple[type[Primitive], dict[str, str]]] = {
     "sphere": (Sphere, {"centre": "p", "radius": "n"}),
     "cylinder": (Cylinder, {"base": "p", "top": "p", "radius": "n"}),
     "cone": (Cone, {"base": "p", "base_radius": "n", "top": "p", "top_radius": "n"}),
+    "elliptic_cylinder": (
+        EllipticCylinder,
+        {"base": "p", "top": "p", "first": "p", "second": "n"},
+    ),
     "torus": (Torus, {"centre": "p", "axis": "d", "major": "n", "minor": "n"}),
     "half_space": (HalfSpace, {"point": "p", "normal": "d"}),
     "infinite_cylinder": (InfiniteCylinder, {"point": "p", "axis": "d", "radius": "n"}),
+    "infinite_elliptic_cylinder": (
+        InfiniteEllipticCylinder,
+        {"point": "p", "first": "p", "second": "p"},
+    ),
     "infinite_cone": (InfiniteCone, {"apex": "p", "axis": "d", "half_angle": "n"}),
 }
 TYPE_OF = {cls: name for name, (cls, _) in PRIMITIVES.items()}

@@ -40,7 +40,6 @@ if TYPE_CHECKING:
 MOVES = ("translate", "rotate", "multitranslate", "multirotate")
 UNSUPPORTED = (
     "ellipsoid",
-    "ellipticcylinder",
     "ellipticcone",
     "polyhedron",
     "extrusion",
@@ -353,7 +352,7 @@ class _Reader:
             headings = re.findall(r"\bsolid\s+(\w+)\s*=", self.source.text[:position])
             return self.source.unsupported(
                 f"{token} (in solid {headings[-1]!r}) is not supported: solids are made of plane, "
-                "sphere, cylinder, cone, orthobrick and torus",
+                "sphere, cylinder, ellipticcylinder, cone, orthobrick and torus",
                 position,
             )
         if token in RESERVED and "NAME" in expected and not expected & {"PRIMITIVE", "SEMI"}:

@@ -66,7 +66,7 @@ def read(source: Source, name: str = "model") -> Model:
 
     Raises:
         ParseError: the text is no `.csg` file, a value is wrong, or nothing is left in it.
-        UnsupportedError: a construct or a transform that lies outside the five primitives.
+        UnsupportedError: a construct or a transform that lies outside the primitives.
     """
     reader = _Reader(source)
     solid = parse(LANGUAGE, source, reader, reader.refuse)

@@ -9,12 +9,12 @@ occur.
 
 from __future__ import annotations
 
-from math import cos, pi, sin, sqrt
+from math import cos, pi, sin
 
 from decomp.carriers.compiled_carriers import (
-    CONE,
     CarrierTable,
     Triple,
+    at_tip,
     foot,
     normal,
     perpendicular_to,
@@ -49,20 +49,19 @@ def point_nearby(
     x, y, z = q
     packed = table.packed
     nx, ny, nz = normal(table, carrier, x, y, z)
-    if table.codes[carrier] == CONE:
+    if at_tip(table, carrier, x, y, z, radius):
         px, py, pz = packed[carrier, 0], packed[carrier, 1], packed[carrier, 2]
-        if sqrt((x - px) ** 2 + (y - py) ** 2 + (z - pz) ** 2) <= radius:
-            kx, ky, kz = packed[carrier, 3], packed[carrier, 4], packed[carrier, 5]
-            ax, ay, az = perpendicular_to(kx, ky, kz)
-            bx, by, bz = ky * az - kz * ay, kz * ax - kx * az, kx * ay - ky * ax
-            along = 2.0 * radius * packed[carrier, 7]
-            c = 2.0 * radius * packed[carrier, 6] * cos(angle)
-            s = 2.0 * radius * packed[carrier, 6] * sin(angle)
-            return (
-                px + along * kx + c * ax + s * bx,
-                py + along * ky + c * ay + s * by,
-                pz + along * kz + c * az + s * bz,
-            )
+        kx, ky, kz = packed[carrier, 3], packed[carrier, 4], packed[carrier, 5]
+        ax, ay, az = perpendicular_to(kx, ky, kz)
+        bx, by, bz = ky * az - kz * ay, kz * ax - kx * az, kx * ay - ky * ax
+        along = 2.0 * radius * packed[carrier, 7]
+        c = 2.0 * radius * packed[carrier, 6] * cos(angle)
+        s = 2.0 * radius * packed[carrier, 6] * sin(angle)
+        return (
+            px + along * kx + c * ax + s * bx,
+            py + along * ky + c * ay + s * by,
+            pz + along * kz + c * az + s * bz,
+        )
     ax, ay, az = perpendicular_to(nx, ny, nz)
     bx, by, bz = ny * az - nz * ay, nz * ax - nx * az, nx * ay - ny * ax
     c, s = radius * cos(angle), radius * sin(angle)
@@ -180,13 +179,10 @@ def in_general_position(
     if count > 2:
         return False
     x, y, z = q
-    packed = table.packed
     for j in range(-1, count):
         k = carrier if j < 0 else others[j]
-        if table.codes[k] == CONE:
-            px, py, pz = packed[k, 0], packed[k, 1], packed[k, 2]
-            if sqrt((x - px) ** 2 + (y - py) ** 2 + (z - pz) ** 2) <= near:
-                return False
+        if at_tip(table, k, x, y, z, near):
+            return False
     nx, ny, nz = normal(table, carrier, x, y, z)
     ax, ay, az = normal(table, others[0], x, y, z)
     cx, cy, cz = ny * az - nz * ay, nz * ax - nx * az, nx * ay - ny * ax

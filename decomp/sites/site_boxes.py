@@ -7,7 +7,6 @@ from math import cos, sqrt
 import numpy as np
 
 from decomp.boundary.topology import Edge, Face, RegionBoundary
-from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.kernels.compiled import inlined
@@ -39,39 +38,10 @@ def face_box(boundary: RegionBoundary, face: Face, around: list[Array]) -> Array
     """Box (6,) around a face, not always the smallest."""
     low, high = bounds_of(boundary)
     edges = [around[k] for loop in face.loops for k, _ in loop]
-    carrier = boundary.carriers[face.carrier]
-    match carrier:
-        case Plane() if edges:
-            corners = np.array(edges)
-            own_low, own_high = corners[:, :3].min(axis=0), corners[:, 3:].max(axis=0)
-        case Sphere():
-            own_low, own_high = carrier.centre - carrier.radius, carrier.centre + carrier.radius
-        case Torus():
-            reach = carrier.major * np.sqrt(np.maximum(1 - carrier.axis**2, 0.0)) + carrier.minor
-            own_low, own_high = carrier.centre - reach, carrier.centre + reach
-        case Cylinder() | Cone() if edges:
-            own_low, own_high = _axial_box(carrier, np.array(edges))
-        case _:
-            own_low, own_high = low, high
+    own = boundary.carriers[face.carrier].box_around(np.array(edges).reshape(-1, 6))
+    own_low, own_high = (low, high) if own is None else own
     slack = 1e-9 * boundary.diagonal
     return np.concatenate([np.maximum(low, own_low) - slack, np.minimum(high, own_high) + slack])
-
-
-def _axial_box(carrier: Cylinder | Cone, edges: Array) -> tuple[Array, Array]:
-    """Box around the part of a cylinder or cone between the heights of some boxes' corners."""
-    point = carrier.point if isinstance(carrier, Cylinder) else carrier.apex
-    middle, half = (edges[:, :3] + edges[:, 3:]) / 2, (edges[:, 3:] - edges[:, :3]) / 2
-    height = (middle - point) @ carrier.axis
-    spread = half @ np.abs(carrier.axis)
-    ends = np.array([(height - spread).min(), (height + spread).max()])
-    if isinstance(carrier, Cylinder):
-        radii = np.full(2, carrier.radius)
-    else:
-        ends[0] = min(ends[0], 0.0)  # a face around the apex has no edge there
-        radii = np.maximum(ends, 0.0) * np.tan(carrier.angle)
-    centres = point + ends[:, None] * carrier.axis
-    reach = radii[:, None] * np.sqrt(np.maximum(1 - carrier.axis**2, 0.0))
-    return (centres - reach).min(axis=0), (centres + reach).max(axis=0)
 
 
 @inlined

@@ -17,6 +17,7 @@ from decomp.skeletons.curves.region_curves import RegionCurves, region_curves
 from decomp.skeletons.model import TrimSurface
 from decomp.skeletons.sheets.drawn_sheets import CrossingError
 from decomp.skeletons.sheets.trim_maker import BoundaryVertices
+from decomp.skeletons.traceable import refuse_untraceable
 from decomp.vectors import Array, Ints
 
 SAMPLES = (2000, 20000)
@@ -86,6 +87,7 @@ def traced_alone(
 ) -> RegionCurves:
     """The curves of one region; arguments and errors as of `traced`."""
     boundary = geometry.regions[number]
+    refuse_untraceable(boundary)
     tell(f"tracing {boundary.name}", number / len(geometry.regions))
     with stage("tracing", boundary.name):
         return region_curves(geometry.index, boundary, number, samples)

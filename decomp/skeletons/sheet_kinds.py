@@ -43,7 +43,7 @@ class SheetKind:
         sites: f and g.
         parity: by the sides on which the sheet lies; even between points and curves.
         shape: kind and canonical parameters, None for a general surface.
-        surface: Vor(f, g), None for a curve's sheet with itself.
+        surface: Vor(f, g), None for a curve's sheet with itself, and where none is known.
         also: further surfaces of the sheet: where the nearest point of a cone is its apex it goes
             over smoothly to the Voronoi surface of the apex.
         part_of: what Vor(f, g) is as a whole where the sheet lies on a part of it, such as one
@@ -98,6 +98,8 @@ def sheet_kind(skeleton: Skeleton, region: RegionSkeleton, sheet: Sheet) -> Shee
     pair = skeleton.sites[sheet.sites[0]], skeleton.sites[sheet.sites[1]]
     sides = {_side(boundary, site) for site in pair}
     parity = Parity.EVEN if len(sides) == 1 else Parity.ODD
+    if not all(_in_algebra(boundary, site) for site in pair):
+        return SheetKind(pair, parity, None, None)
     one, two = (voronoi_site(boundary, site) for site in pair)
     if _alike(one, two, size):
         used = np.unique(skeleton.complex.patches[sheet.patch].triangles)
@@ -186,6 +188,12 @@ def voronoi_site(boundary: RegionBoundary, site: Site) -> VoronoiSite:
     if site.kind is SiteKind.EDGE:
         return site_of(boundary.edges[site.index].curve)
     return site_of(boundary.vertices[site.index].point)
+
+
+def _in_algebra(boundary: RegionBoundary, site: Site) -> bool:
+    """Whether Voronoi surfaces of a site are known; of others sheets are known by their sites."""
+    face = site.kind is SiteKind.FACE
+    return not face or boundary.carriers[boundary.faces[site.index].carrier].traceable
 
 
 def _side(boundary: RegionBoundary, site: Site) -> int:

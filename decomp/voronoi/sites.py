@@ -267,7 +267,10 @@ def of_carrier(carrier: Carrier) -> CarrierSite:
     if isinstance(carrier, Torus):
         values = exact(carrier.major), exact(carrier.minor)
         return TorusSite(_given(carrier.centre), _given(carrier.axis), *values)
-    raise InputError(f"no Voronoi surface is known for a {carrier.kind}")
+    raise InputError(
+        f"{carrier.kind}: Voronoi surfaces of such a face are not known; sheets beside it are "
+        "found by sampling ('--method sampled'), and '--cells none' makes a mesh without them"
+    )
 
 
 def _given(values: Array) -> Vector:

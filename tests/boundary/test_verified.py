@@ -11,8 +11,10 @@ import pytest
 
 import decomp
 from benchmarks.membership import held
+from decomp import carriers
 from decomp.boundary import assembled, faces, integrals, loops
-from decomp.csg.primitives import Block, Cone, Cylinder, Sphere, Torus
+from decomp.carriers import Carrier
+from decomp.csg.primitives import Block, Cone, Cylinder, EllipticCylinder, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
 from decomp.vectors import Array
@@ -47,15 +49,23 @@ def test_edges_that_were_linked_across_a_vertex(monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize(
-    ("term", "solid"),
+    ("carrier", "solid"),
     [
-        ("_cylinder_term", Cylinder((0, 0, 0), (0, 0, 2), 1)),
-        ("_sphere_term", Sphere((0, 0, 0), 1) - Block((0, -2, -2), (2, 4, 4))),
+        (carriers.Cylinder, Cylinder((0, 0, 0), (0, 0, 2), 1)),
+        (carriers.EllipticCylinder, EllipticCylinder((0, 0, 0), (0, 0, 2), (2, 0, 0), 1)),
+        (carriers.Sphere, Sphere((0, 0, 0), 1) - Block((0, -2, -2), (2, 4, 4))),
     ],
 )
-def test_an_area_that_is_wrong(term: str, solid: Solid, monkeypatch: pytest.MonkeyPatch) -> None:
-    right: Callable[..., float] = getattr(integrals, term)
-    monkeypatch.setattr(integrals, term, lambda *args: 1.001 * right(*args))
+def test_an_area_that_is_wrong(
+    carrier: type[Carrier], solid: Solid, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right = carrier.border_terms
+
+    def wrong(*args: Any) -> tuple[float, float]:
+        area, support = right(*args)
+        return 1.001 * area, 1.001 * support
+
+    monkeypatch.setattr(carrier, "border_terms", wrong)
     with pytest.raises(GeometryError, match=r"by one vector field and .* by another") as error:
         decomp.Geometry(solid)
     told = re.search(r"volume is (\S+) by one vector field and (\S+) by", str(error.value))

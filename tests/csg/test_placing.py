@@ -7,6 +7,7 @@ import pytest
 
 import decomp
 from decomp import similarity
+from decomp.carriers.base import ROW
 from decomp.csg.placing import AT_ORIGIN, Placing, placing_of
 from decomp.exact import careful_difference, difference
 from decomp.similarity import Similarity
@@ -101,7 +102,7 @@ def test_copies_about_a_far_centre_fit_together() -> None:
     here, there = (decomp.Geometry(flange(x)).local.boundaries for x in (0.0, 1e6))
     carriers = zip(here.form.carriers, there.form.carriers, strict=True)
     for one, other in carriers:
-        step = np.append(there.offset - [1e6, 0, 0], np.zeros(5))
+        step = np.append(there.offset - [1e6, 0, 0], np.zeros(ROW - 3))
         assert other.packed() + step == pytest.approx(one.packed(), abs=3e-15)
 
 

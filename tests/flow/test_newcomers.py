@@ -34,6 +34,9 @@ FILES = {
     "of_gmsh.geo": 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 1, 1, 1};\n',
     "empty.geo": "\n",
     "egg.geo": GEO + "solid egg = ellipsoid (0,0,0; 1,0,0; 0,2,0; 0,0,3);\ntlo egg;\n",
+    "oval.geo": GEO
+    + "solid oval = ellipticcylinder (0,0,0; 2,0,0; 0,1,0) and plane (0,0,0; 0,0,-1)\n"
+    "  and plane (0,0,3; 0,0,1);\ntlo oval;\n",
     "profile.csg": "linear_extrude(height = 3) { square(size = [1, 2]); }\n",
     "stretched.csg": "multmatrix([[2,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { sphere(r = 1); }\n",
     "apart.geo": GEO + "solid apart = sphere (0,0,0; 1) and sphere (5,0,0; 1);\ntlo apart;\n",

@@ -17,9 +17,11 @@ from decomp.csg.primitives import (
     Block,
     Cone,
     Cylinder,
+    EllipticCylinder,
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    InfiniteEllipticCylinder,
     Sphere,
     Torus,
 )
@@ -37,6 +39,7 @@ from decomp.csg.solid import (
 from decomp.errors import ParseError
 from decomp.formats import loads
 from decomp.formats.native import dumps
+from decomp.vectors import norm, perpendicular
 from tests.formats.membership import contains
 
 coordinates = st.floats(-4, 4)
@@ -71,6 +74,20 @@ def cylinders(draw: st.DrawFn) -> Cylinder:
 
 
 @st.composite
+def elliptic_cylinders(draw: st.DrawFn) -> EllipticCylinder:
+    base, axis = np.array(draw(points)), np.array(draw(axes))
+    first = draw(sizes) * perpendicular(axis / norm(axis))
+    return EllipticCylinder(base, base + axis, first, draw(sizes), draw(maybe_names))
+
+
+@st.composite
+def infinite_elliptic_cylinders(draw: st.DrawFn) -> InfiniteEllipticCylinder:
+    first = np.array(draw(axes))
+    second = draw(sizes) * perpendicular(first / norm(first))
+    return InfiniteEllipticCylinder(draw(points), first, second, draw(maybe_names))
+
+
+@st.composite
 def cones(draw: st.DrawFn) -> Cone:
     base, radius = np.array(draw(points)), draw(sizes)
     top = draw(st.sampled_from([0.0, radius / 2, radius * 3]))
@@ -92,6 +109,8 @@ primitives = (
     | tori()
     | st.builds(HalfSpace, points, axes, maybe_names)
     | st.builds(InfiniteCylinder, points, axes, sizes, maybe_names)
+    | elliptic_cylinders()
+    | infinite_elliptic_cylinders()
     | st.builds(InfiniteCone, points, axes, st.floats(1, 89), maybe_names)
 )
 moves = (

@@ -13,6 +13,7 @@ from decomp.csg.primitives import (
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    InfiniteEllipticCylinder,
     Primitive,
     Sphere,
     Torus,
@@ -21,6 +22,7 @@ from decomp.csg.solid import Complement, Copies, Intersection, Labelled, Solid, 
 from decomp.errors import FileError, ParseError, UnsupportedError
 from decomp.formats import loads
 from decomp.formats.native import dumps
+from tests.formats.membership import contains
 
 
 def read(body: str) -> Model:
@@ -252,11 +254,39 @@ def test_a_comment_may_stand_among_numbers() -> None:
     assert same(ball.centre, 0, 1, -2)
 
 
+def test_elliptic_cylinders() -> None:
+    oval = primitive("ellipticcylinder (1, 2, 3; 0, 4, 0; 0, 0, -.5)")
+    assert isinstance(oval, InfiniteEllipticCylinder)
+    assert same(oval.point, 1, 2, 3)
+    assert same(oval.first, 0, 4, 0)
+    assert same(oval.second, 0, 0, -0.5)
+    # inside where ((p - c) . va / |va|^2)^2 + ((p - c) . vb / |vb|^2)^2 < 1
+    points = np.array([[9, 5.9, 3], [9, 6.1, 3], [-9, 2, 3.4], [1, 2, 3.6], [1, 5.4, 3.4]])
+    assert contains(oval, points).tolist() == [True, False, True, False, False]
+
+
+@pytest.mark.parametrize(
+    ("numbers", "message"),
+    [
+        (
+            "0,0,0; 1,0,0; 1,1,0",
+            r"x.geo:2:9: .*\(1, 0, 0\) must be at right angles to the other, \(1, 1, 0\), but the "
+            r"angle is 45 degrees \(in solid 'a'\)",
+        ),
+        ("0,0,0; 1,0,0; 0,0,0", "x.geo:2:9: .*second semi-axis must not be the zero vector"),
+        ("0,0,0; 1,0,0; 2", "x.geo:2:.*ellipticcylinder \\(centre; semi-axis; other semi-axis\\)"),
+    ],
+)
+def test_wrong_elliptic_cylinders(numbers: str, message: str) -> None:
+    text = f"algebraic3d\nsolid a=ellipticcylinder ({numbers});\ntlo a;\n"
+    with pytest.raises(FileError, match=message):
+        loads(text, "geo", path="x.geo")
+
+
 @pytest.mark.parametrize(
     "construct",
     [
         "ellipsoid (0,0,0; 1,0,0; 0,1,0; 0,0,2)",
-        "ellipticcylinder (0,0,0; 1,0,0; 0,2,0)",
         "ellipticcone (0,0,0; 5,0,0; 0,2,0; 5; 0.5)",
         "extrusion (path; profile; 0,0,1)",
         "revolution (0,0,0; 1,0,0; curve)",

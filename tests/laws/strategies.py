@@ -19,6 +19,7 @@ from decomp.csg.primitives import (
     HalfSpace,
     InfiniteCone,
     InfiniteCylinder,
+    InfiniteEllipticCylinder,
     Sphere,
     Torus,
 )
@@ -32,6 +33,7 @@ from decomp.csg.solid import (
     Transformed,
     Union,
 )
+from decomp.vectors import cross, norm, perpendicular
 
 Point = tuple[float, float, float]
 Numbers = SearchStrategy[float]
@@ -60,14 +62,25 @@ def directions(special: bool) -> SearchStrategy[Point]:
     return points(generic(-1, 1)).filter(lambda v: max(map(abs, v)) > 0.2)
 
 
+PRIMITIVES = (
+    "block",
+    "sphere",
+    "cylinder",
+    "cone",
+    "torus",
+    "plane",
+    "bore",
+    "funnel",
+    "oval",
+)
+
+
 @st.composite
 def primitives(draw: st.DrawFn, special: bool = False) -> Solid:
     """One primitive of any kind, about the origin."""
     number = round_numbers if special else generic
     where, size = points(number(-1, 1)), number(0.5, 1.5)
-    kind = draw(
-        st.sampled_from(["block", "sphere", "cylinder", "cone", "torus", "plane", "bore", "funnel"])
-    )
+    kind = draw(st.sampled_from(PRIMITIVES))
     at = draw(where)
     if kind == "block":
         return Block(at, draw(st.tuples(size, size, size)))
@@ -88,6 +101,10 @@ def primitives(draw: st.DrawFn, special: bool = False) -> Solid:
         return Torus(at, way, minor + draw(size), minor)
     if kind == "plane":
         return HalfSpace(at, way)
+    if kind == "oval":
+        axis = np.array(way) / norm(np.array(way))
+        one, two = draw(size) * perpendicular(axis), draw(size) / 2
+        return InfiniteEllipticCylinder(at, one, two * cross(axis, perpendicular(axis)))
     if kind == "bore":
         return InfiniteCylinder(at, way, draw(size) / 2)
     return InfiniteCone(at, way, draw(st.sampled_from([20.0, 30.0, 45.0])))
@@ -139,7 +156,9 @@ def solids(special: bool = False, leaves: int = 4) -> SearchStrategy[Solid]:
 
 def _is_bounded(solid: Solid) -> bool:
     match solid:
-        case HalfSpace() | InfiniteCylinder() | InfiniteCone() | Complement():
+        case HalfSpace() | InfiniteCylinder() | InfiniteEllipticCylinder() | InfiniteCone():
+            return False
+        case Complement():
             return False
         case Union(parts=parts):
             return all(_is_bounded(p) for p in parts)

@@ -252,7 +252,7 @@ def _shared(
     key, which, at = np.concatenate(keys), np.concatenate(owner), np.concatenate(side)
     _, inverse, count = np.unique(key, return_inverse=True, return_counts=True)
     clash = (count[inverse] > 1) | np.isin(key, walls)
-    flat = np.array([mesh.layout.carrier.kind == "plane" for mesh in meshes], dtype=np.bool_)
+    flat = np.array([mesh.layout.carrier.flat for mesh in meshes], dtype=np.bool_)
     curved = clash & ~flat[which]
     more = {int(k): at[curved & (which == k)] for k in np.unique(which[curved])}
     crossed = np.isin(walls, key[clash & flat[which]])

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import ceil
 
 import numpy as np
 
-from decomp.carriers import Cone, Plane, Sphere, Torus
+from decomp.carriers import Carrier
 from decomp.complex.boundary.boundary_classes import FoldedError, Sides, sides_of
 from decomp.complex.boundary.boundary_layout import Layout
 from decomp.complex.boundary.boundary_samples import Samples
@@ -76,8 +75,8 @@ def carrier_mesh(
             if len(error.spots):
                 more = layout.carrier.project(layout.chart.to_space(error.spots))
                 extra = np.concatenate([extra, spread(more, np.full(len(more), _gap(layout)))])
-            elif isinstance(layout.carrier, Torus) and attempt < 4:
-                extra = _torus_grid(layout.carrier, known, 2**attempt)
+            elif layout.carrier.closed and layout.pole is None and attempt < 4:
+                extra = _grid(layout.carrier, known, 2**attempt)
             else:
                 raise
             continue
@@ -125,27 +124,18 @@ def _triangulated(layout: Layout, points: Array, segments: Ints) -> tuple[Ints, 
 
 
 def _first_points(layout: Layout, known: Array) -> Array:
-    """Points without which a sphere or torus has no triangles."""
+    """Points without which a closed carrier has no triangles."""
     carrier = layout.carrier
-    if isinstance(carrier, Torus) and not layout.pieces:
-        return _torus_grid(carrier, known, 1)
-    if not isinstance(carrier, Sphere) or layout.pole is None:
-        return np.empty((0, 3))
-    pole = carrier.normal(layout.pole)
-    x, y = frame(pole)
-    around = carrier.centre + carrier.radius * np.array([-pole, x, y, -x, -y])
-    return np.concatenate(
-        [layout.pole[None], _clear(around, known, CLEARANCE * 1.5 * carrier.radius)]
-    )
+    if layout.pole is not None:
+        grid = _grid(carrier, known, 1, carrier.normal(layout.pole))
+        return np.concatenate([layout.pole[None], grid])
+    return np.empty((0, 3)) if layout.pieces else _grid(carrier, known, 1)
 
 
-def _torus_grid(torus: Torus, known: Array, finer: int) -> Array:
-    """A grid on a torus without the points close to given ones."""
-    tube = 8 * finer
-    around = tube * max(1, ceil(torus.major / (3 * torus.minor)))
-    u, v = np.meshgrid(*(2 * np.pi * np.arange(n) / n for n in (around, tube)))
-    grid = torus.point(u.ravel(), v.ravel(), *frame(torus.axis))
-    return _clear(grid, known, CLEARANCE * 2 * np.pi * torus.minor / tube)
+def _grid(carrier: Carrier, known: Array, finer: int, pole: Array | None = None) -> Array:
+    """A grid on a closed carrier without the points close to given ones."""
+    points, gap = carrier.grid(finer, pole)
+    return _clear(points, known, CLEARANCE * gap)
 
 
 def _clear(points: Array, known: Array, gap: float) -> Array:
@@ -174,8 +164,7 @@ def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -
     middle[fan, 0] -= beyond[fan, 0]
     middle[fan, 1:] = 0.0
     result = layout.carrier.project(layout.chart.to_space(middle.reshape(-1, 2))).reshape(-1, 3, 3)
-    assert isinstance(layout.carrier, Sphere)
-    centre, radius = layout.carrier.centre, layout.carrier.radius
+    centre, radius = layout.carrier.place, layout.carrier.width
     both = points[triangles[fan]] + points[ends[fan]]
     away = (both / 2 - centre)[:, 1:]
     # the point opposite the pole: any way round
@@ -194,7 +183,7 @@ def _bent(
     layout: Layout, points: Array, triangles: Ints, midpoints: Array, segments: Ints, turn: float
 ) -> Array:
     """Midpoints of the edges along which normals turn too far, the worst first, not too close."""
-    if isinstance(layout.carrier, Plane) or not len(triangles):
+    if layout.carrier.flat or not len(triangles):
         return np.empty((0, 3))
     n = len(points)
     ends = np.roll(triangles, -1, axis=1)
@@ -204,9 +193,9 @@ def _bent(
     first = first[~np.isin(keys, walls)]
     a, b = points[low[first]], points[high[first]]
     angle = np.arccos(np.clip(dot(layout.carrier.normal(a), layout.carrier.normal(b)), -1, 1))
-    if isinstance(layout.carrier, Cone):
+    tip = layout.carrier.tip
+    if tip is not None:
         reach = 1e-9 * norm(a - b)
-        tip = layout.carrier.apex
         angle = np.where((norm(a - tip) <= reach) | (norm(b - tip) <= reach), 0.0, angle)
     bad = first[angle > turn]
     order = np.argsort(-angle[angle > turn], kind="stable")

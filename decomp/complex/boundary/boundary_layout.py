@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Sphere
+from decomp.carriers import Carrier
+from decomp.carriers.charts import Chart
 from decomp.complex.boundary.boundary_pieces import WELD, Pieces
 from decomp.complex.boundary.boundary_samples import Samples
-from decomp.complex.footprints.charts import Chart, chart_of
 from decomp.geometry import Geometry
 from decomp.vectors import Array, Ints, norm
 
@@ -89,15 +89,15 @@ def layouts(geometry: Geometry, pieces: Pieces, samples: Samples) -> tuple[Layou
         points = samples.points[
             np.unique(np.concatenate([nodes, *(samples.vertices[p] for p in here)])).astype(int)
         ]
-        pole, direction, apex, slant = None, None, False, 1.0
-        if isinstance(carrier, Sphere):
+        pole, direction, tip, reach = None, None, False, 1.0
+        if carrier.needs_pole:
             direction = _clearest(carrier, points)
-            pole = carrier.centre + carrier.radius * direction
-        if isinstance(carrier, Cone):
-            away = norm(points - carrier.apex)
-            apex = bool((away <= tolerance).any())
-            slant = float(away.max(initial=1.0))
-        chart = chart_of(carrier, apex, slant, direction)
+            pole = carrier.place + carrier.width * direction
+        if carrier.tip is not None:
+            away = norm(points - carrier.tip)
+            tip = bool((away <= tolerance).any())
+            reach = float(away.max(initial=1.0))
+        chart = carrier.chart(tip, reach, direction)
         result.append(Layout(k, carrier, chart, pole, nodes, here, tuple(faces)))
     return tuple(result)
 
@@ -117,7 +117,7 @@ def _face_uses(geometry: Geometry, pieces: Pieces) -> dict[int, list[FaceUse]]:
     return uses
 
 
-def _clearest(sphere: Sphere, points: Array) -> Array:
+def _clearest(sphere: Carrier, points: Array) -> Array:
     """Of many directions from the centre the one that keeps farthest from the points."""
     if not len(points):
         return np.array([0.0, 0.0, 1.0])

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
-from decomp.carriers import Cone
 from decomp.complex.footprints.domain_base import Domain
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, cross, dot, frame, norm
@@ -65,10 +64,11 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
     vertex = boundary.vertices[index]
     if not vertex.edges:
         face = boundary.faces[vertex.faces[0]]
-        cone = boundary.carriers[face.carrier]
-        assert isinstance(cone, Cone)
+        carrier = boundary.carriers[face.carrier]
+        assert carrier.tip_axis is not None
         # the balls that touch an apex lie in the cone of normals about the axis
-        return VertexDomain(vertex.point, -cone.axis, float(np.sin(cone.angle)) > WIDE)
+        wide = -float(carrier.normal(face.point) @ carrier.tip_axis) > WIDE
+        return VertexDomain(vertex.point, -carrier.tip_axis, wide)
     normals = []
     for k in vertex.edges:
         for f in boundary.edges[k].faces:
@@ -168,7 +168,7 @@ def _near(boundary: RegionBoundary, edge: int, vertex: int) -> Array:
     """The vertex, or a point of the edge beside it where a cone's apex has no normal."""
     e = boundary.edges[edge]
     point = boundary.vertices[vertex].point
-    apexes = [c.apex for c in boundary.carriers if isinstance(c, Cone)]
+    apexes = [c.tip for c in boundary.carriers if c.tip is not None]
     if not any(norm(a - point) <= 1e-8 * boundary.diagonal for a in apexes):
         return point
     assert e.vertices is not None

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Face, RegionBoundary
-from decomp.carriers import Carrier, Cone
-from decomp.complex.footprints.charts import Chart, chart_of
+from decomp.carriers import Carrier
+from decomp.carriers.charts import Chart
 from decomp.complex.footprints.domain_base import Domain
 from decomp.complex.footprints.domain_edges import edge_domain
 from decomp.complex.footprints.domain_vertices import vertex_domain
@@ -78,10 +78,11 @@ def face_domain(boundary: RegionBoundary, face: Face, pole: Array | None = None)
         GeometryError: a sphere is given no pole.
     """
     carrier = boundary.carriers[face.carrier]
-    apex, slant = False, 1.0
-    if isinstance(carrier, Cone):
+    tip, reach = False, 1.0
+    if carrier.tip is not None:
+        at = carrier.tip
         index = next(k for k, f in enumerate(boundary.faces) if f is face)
         corners = [v.point for v in boundary.vertices if index in v.faces]
-        apex = any(norm(p - carrier.apex) <= 1e-8 * boundary.diagonal for p in corners)
-        slant = float(norm(face.point - carrier.apex))
-    return FaceDomain(carrier, face.outward, chart_of(carrier, apex, slant, pole))
+        tip = any(norm(p - at) <= 1e-8 * boundary.diagonal for p in corners)
+        reach = float(norm(face.point - at))
+    return FaceDomain(carrier, face.outward, carrier.chart(tip, reach, pole))

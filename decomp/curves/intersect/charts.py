@@ -1,4 +1,4 @@
-"""A carrier as a family of isolines: rulings of a cylinder or cone, tube circles of a torus.
+"""A carrier as a family of isolines: rulings of cylinders and cones, tube circles of a torus.
 
 u is the angle about the axis, v the place on the isoline. The chart is cut open along v = low
 and v = high; for the torus these are one and the same seam.
@@ -13,7 +13,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
+from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Sphere, Torus
 from decomp.curves.intersect.result import Window
 from decomp.vectors import Array, dot, frame, norm
 
@@ -43,7 +43,8 @@ class Chart(ABC):
 class Rulings(Chart):
     """start + radius e(u) + v (along axis + out e(u)), e(u) = cos u x + sin u y.
 
-    `along` and `out` are scaled so that v is at most 1 in size.
+    `along` and `out` are scaled so that v is at most 1 in size. x and y are orthonormal, but of an
+    elliptic cylinder, whose radius is 1, conjugate semi-diameters of its section.
     """
 
     start: Array
@@ -61,7 +62,8 @@ class Rulings(Chart):
         return np.asarray(self.start + rho * e + height * self.axis)
 
     def metric(self, u: float, v: float) -> tuple[float, float]:
-        return abs(self.radius + self.out * v), hypot(self.out, self.along)
+        around = float(norm(cos(u) * self.y - sin(u) * self.x))
+        return abs(self.radius + self.out * v) * around, hypot(self.out, self.along)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +85,7 @@ def chart_of(a: Carrier, b: Carrier, window: Window, turn: float) -> Chart:
     """Chart of carrier `a` over all that may meet `b` in the window.
 
     Args:
-        a: cylinder, cone or torus.
+        a: cylinder, elliptic cylinder, cone or torus.
         b: the other carrier.
         window: where the intersection is wanted.
         turn: angle that sets where the chart is cut; any value will do, unless the cut
@@ -96,15 +98,18 @@ def chart_of(a: Carrier, b: Carrier, window: Window, turn: float) -> Chart:
         x, y = _turned(a.axis, turn)
         far = window.reach(a.apex) * (1 + 0.01 * turn)
         if isinstance(b, Sphere | Torus):
-            centre, size = _ball(b)
-            far = min(far, (float(norm(centre - a.apex)) + size) * (1 + 0.01 * turn))
+            far = min(far, (float(norm(b.centre - a.apex)) + b.width) * (1 + 0.01 * turn))
         return Rulings(x, y, 0.0, 1.0, a.apex, a.axis, 0.0, far * cos(a.angle), far * sin(a.angle))
-    assert isinstance(a, Cylinder)
-    x, y = _turned(a.axis, turn)
+    assert isinstance(a, Cylinder | EllipticCylinder)
     low, high = _extent(a, b, window)
     start = a.point + (low + high) / 2 * a.axis
     half = (high - low) / 2 * (1 + 0.01 * turn)
-    return Rulings(x, y, -1.0, 1.0, start, a.axis, a.radius, half, 0.0)
+    if isinstance(a, Cylinder):
+        x, y = _turned(a.axis, turn)
+        return Rulings(x, y, -1.0, 1.0, start, a.axis, a.radius, half, 0.0)
+    one, two = a.a * a.x, a.b * a.y
+    x, y = cos(turn) * one + sin(turn) * two, cos(turn) * two - sin(turn) * one
+    return Rulings(x, y, -1.0, 1.0, start, a.axis, 1.0, half, 0.0)
 
 
 def _turned(axis: Array, turn: float) -> tuple[Array, Array]:
@@ -112,21 +117,17 @@ def _turned(axis: Array, turn: float) -> tuple[Array, Array]:
     return cos(turn) * x + sin(turn) * y, cos(turn) * y - sin(turn) * x
 
 
-def _ball(b: Sphere | Torus) -> tuple[Array, float]:
-    return b.centre, b.radius if isinstance(b, Sphere) else b.major + b.minor
-
-
-def _extent(a: Cylinder, b: Carrier, window: Window) -> tuple[float, float]:
+def _extent(a: Cylinder | EllipticCylinder, b: Carrier, window: Window) -> tuple[float, float]:
     """Heights on a's axis between which a meets b in the window, with a margin."""
     middle = float(dot(window.centre - a.point, a.axis))
     low, high = middle - 1.01 * window.radius, middle + 1.01 * window.radius
     if isinstance(b, Sphere | Torus):
-        centre, size = _ball(b)
+        centre, size = b.centre, b.width
         at = float(dot(centre - a.point, a.axis))
         size *= 1.05
         return max(low, at - size), min(high, at + size)
-    if isinstance(b, Cylinder):
-        # distance from axis b of the point at height h on axis a: at most a.radius + b.radius
+    if isinstance(b, Cylinder | EllipticCylinder):
+        # distance from axis b of the point at height h on axis a: at most the sum of both widths
         c = float(dot(a.axis, b.axis))
         across = a.axis - c * b.axis
         away = a.point - b.point
@@ -134,7 +135,7 @@ def _extent(a: Cylinder, b: Carrier, window: Window) -> tuple[float, float]:
         square = float(dot(across, across))
         if square > 1e-12:
             at = -float(dot(away, across)) / square
-            rest = (1.05 * (a.radius + b.radius)) ** 2 - float(norm(away + at * across)) ** 2
+            rest = (1.05 * (a.width + b.width)) ** 2 - float(norm(away + at * across)) ** 2
             if rest > 0:
                 half = sqrt(rest / square)
                 return max(low, at - half), min(high, at + half)

@@ -1,7 +1,7 @@
 """Which method finds the intersection of which pair.
 
-1. Parallel planes' lines, conics of planes with cylinders and cones, lines of parallel
-   cylinders, circles of coaxial pairs: closed form.
+1. Parallel planes' lines, conics of planes with cylinders, elliptic ones and cones, lines of
+   parallel cylinders, circles of coaxial pairs: closed form.
 2. Quadrics whose pencil holds a pair of planes: conics in these planes.
 3. Everything else: one carrier's rulings or tube circles are met with the other carrier.
 """
@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.carriers import Carrier, Cone, Cylinder, Plane
+from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Plane
 from decomp.curves.intersect.coaxial import coaxial, common_axis
+from decomp.curves.intersect.elliptic import plane_elliptic_cylinder
 from decomp.curves.intersect.general import general
 from decomp.curves.intersect.parallel import parallel_cylinders
 from decomp.curves.intersect.pencil import plane_pair
@@ -58,6 +59,10 @@ def _closed_form(a: Carrier, b: Carrier, window: Window) -> Intersection | None:
         found = parallel_cylinders(a, b, window)
         if found is not None:
             return found
+    if isinstance(a, Plane) and isinstance(b, EllipticCylinder):
+        return plane_elliptic_cylinder(a, b, window)
+    if not (a.revolved and b.revolved):
+        return None
     axis = common_axis(a, b, window)
     if axis is None:
         return None

@@ -1,6 +1,6 @@
 """Intersection of two carriers by the isolines of one of them.
 
-1. Choose the carrier that gives the isolines: torus before cylinder before cone.
+1. Choose the carrier that gives the isolines: torus before cylinders before cone.
 2. Divide out whole isolines that lie on the other carrier.
 3. Find all events: folds, nodes, contacts, and passages through the chart's borders.
 4. Sample the arcs between events, join them, and bring them onto both carriers.
@@ -47,6 +47,10 @@ TURNS = (0.7345, 1.9213, 0.2817, 2.6431, 1.3579)
 """Angles at which the chart is cut, tried in turn: any generic numbers."""
 
 
+RANK = {"torus": 0, "cylinder": 1, "elliptic cylinder": 2, "cone": 3}
+"""Which of two carriers rather gives the isolines, by kind."""
+
+
 def general(a: Carrier, b: Carrier, window: Window) -> Intersection:
     """The whole intersection.
 
@@ -68,13 +72,12 @@ def general(a: Carrier, b: Carrier, window: Window) -> Intersection:
 
 def _orders(a: Carrier, b: Carrier, window: Window) -> list[tuple[Carrier, Carrier]]:
     """Which carrier gives the isolines: the better choice first."""
-    orders = [(c, d) for c, d in ((b, a), (a, b)) if c.kind in ("cylinder", "cone", "torus")]
+    orders = [(c, d) for c, d in ((b, a), (a, b)) if c.kind in RANK]
 
     def cost(order: tuple[Carrier, Carrier]) -> tuple[bool, int]:
         c, d = order
         bad = isinstance(c, Cone) and abs(float(d.signed_distance(c.apex))) <= window.tolerance
-        rank = {"torus": 0, "cylinder": 1, "cone": 2}[c.kind]
-        return bad, rank
+        return bad, RANK[c.kind]
 
     orders.sort(key=cost)
     return [o for o in orders if not isinstance(o[1], Torus) or isinstance(o[0], Torus)]

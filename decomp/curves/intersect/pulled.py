@@ -1,9 +1,10 @@
 """The other carrier's polynomial on a chart: F(u, v).
 
-F has degree at most 2 in (cos u, sin u): all five carriers vanish on polynomials whose top
-degree part is a power of |p|^2 times a quadratic one, and |p|^2 is of degree 1 on every chart.
-In v it is a quadratic polynomial on rulings and a trigonometric one of degree 2 on tube
-circles. With z = e^{iu} and w = e^{iv} (or w = v on rulings),
+F has degree at most 2 in (cos u, sin u): all carriers vanish on polynomials whose top degree part
+is a power of |p|^2 times a quadratic one, and |p|^2 is of degree 1 on every chart but that of an
+elliptic cylinder, where all polynomials that are looked at are quadratic. In v it is a quadratic
+polynomial on rulings and a trigonometric one of degree 2 on tube circles. With z = e^{iu} and
+w = e^{iv} (or w = v on rulings),
 
     F(u, v) = Re[ phase z^{-m/2} w^{-n/2} P(z, w) ],    P = sum P_jk z^j w^k,
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
-from decomp.carriers import Carrier, Plane, Sphere, Torus
+from decomp.carriers import Carrier, Plane, Sphere
 from decomp.csg.model import Model
 from decomp.csg.primitive import Primitive
 from decomp.csg.solid import (
@@ -145,7 +145,7 @@ def _end(geometry: Geometry) -> _End | None:
     for number, boundary in enumerate(geometry.regions):
         for faces in _components(boundary):
             carriers = tuple(boundary.carriers[boundary.faces[face].carrier] for face in faces)
-            flat = all(isinstance(each, Plane) for each in carriers)
+            flat = all(each.flat for each in carriers)
             if not flat and not (len(faces) == 1 and isinstance(carriers[0], Sphere)):
                 continue
             points = _extremes(boundary, faces)
@@ -173,10 +173,9 @@ def _extremes(boundary: RegionBoundary, faces: Sequence[int]) -> Array:
     points = [e.samples for e in boundary.edges if set(e.faces) <= set(faces)]
     for face in faces:
         carrier = boundary.carriers[boundary.faces[face].carrier]
-        if isinstance(carrier, (Sphere, Torus)) and not boundary.faces[face].loops:
-            reach = carrier.major + carrier.minor if isinstance(carrier, Torus) else carrier.radius
-            way = reach * np.concatenate([np.eye(3), -np.eye(3)])
-            points.append(carrier.centre + way)
+        if carrier.closed and not boundary.faces[face].loops:
+            way = carrier.width * np.concatenate([np.eye(3), -np.eye(3)])
+            points.append(carrier.place + way)
     return np.concatenate([np.empty((0, 3)), *points])
 
 
@@ -185,7 +184,7 @@ def _volume(boundary: RegionBoundary, faces: Sequence[int], place: Array) -> flo
     total = 0.0
     for face in faces:
         carrier = boundary.carriers[boundary.faces[face].carrier]
-        centre = carrier.centre if isinstance(carrier, Sphere) else place
+        centre = place if carrier.flat else carrier.place
         way = abs(float(carrier.signed_distance(centre[None])[0]))
         total += boundary.faces[face].area * way / 3
     return total

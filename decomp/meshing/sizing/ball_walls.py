@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.carriers import Cone
 from decomp.geometry import Geometry
 from decomp.meshing.sizing.wall import FACING, Wall, owners_and_meeting
 from decomp.meshing.surface.layout import samples
@@ -103,7 +102,7 @@ class _OnFace:
         self._balls, self._face = balls, face
         self._least = 0.0
         boundary = balls.boundary
-        if isinstance(boundary.carriers[boundary.faces[face].carrier], Cone):
+        if boundary.carriers[boundary.faces[face].carrier].tip is not None:
             points = balls.surface.complex.points
             some, _ = samples(points, triangles, boundary.diagonal / SAMPLED)
             *_, wide, same = balls.facing(face, some)

@@ -5,14 +5,10 @@ from __future__ import annotations
 from math import sqrt
 
 from decomp.carriers.compiled_carriers import (
-    CONE,
-    CYLINDER,
-    PLANE,
-    SPHERE,
     CarrierTable,
     Triple,
     normal,
-    radial,
+    normal_curvature,
     signed_distance,
 )
 from decomp.kernels.compiled import inner
@@ -23,32 +19,6 @@ divided by no less than this, and are no longer than this part of the distance."
 TOUCHING = 1e-7
 """Sine of the angle between carriers below which rounding decides where they meet."""
 FOOT_STEPS = 60
-
-
-@inner
-def normal_curvature(
-    table: CarrierTable, c: int, x: float, y: float, z: float, dx: float, dy: float, dz: float
-) -> float:
-    """Curvature of carrier c at a point on it along a unit tangent, see `Carrier`."""
-    packed, code = table.packed, table.codes[c]
-    if code == PLANE:
-        return 0.0
-    if code == SPHERE:
-        return float(1.0 / packed[c, 6])
-    ax, ay, az = packed[c, 3], packed[c, 4], packed[c, 5]
-    ux, uy, uz = radial(packed, c, x, y, z)
-    wx, wy, wz = ay * uz - az * uy, az * ux - ax * uz, ax * uy - ay * ux
-    around = wx * dx + wy * dy + wz * dz
-    if code == CYLINDER:
-        return float(around * around / packed[c, 6])
-    rho = (x - packed[c, 0]) * ux + (y - packed[c, 1]) * uy + (z - packed[c, 2]) * uz
-    if code == CONE:
-        return float(around * around * packed[c, 7] / rho)
-    nx, ny, nz = normal(table, c, x, y, z)
-    sx, sy, sz = wy * nz - wz * ny, wz * nx - wx * nz, wx * ny - wy * nx
-    across = sx * dx + sy * dy + sz * dz
-    parallel = (nx * ux + ny * uy + nz * uz) / rho
-    return float(around * around * parallel + across * across / packed[c, 7])
 
 
 @inner

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
-from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
 from decomp.carriers.axial import axial_split
+from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.sites.site import Site, SiteKind
@@ -196,24 +196,12 @@ def _locus_error(evidence: Evidence, locus: Reflexive, vertices: Ints) -> Array:
 def _from_locus(boundary: RegionBoundary, site: Site, points: Array) -> Array:
     """Distance (k,) from a site's reflexive locus."""
     if site.kind is SiteKind.FACE:
-        return _from_carrier_locus(boundary.carriers[boundary.faces[site.index].carrier], points)
+        carrier = boundary.carriers[boundary.faces[site.index].carrier]
+        away = np.minimum(*(reflexive_gap(carrier, side, points) for side in (1, -1)))
+        if np.isfinite(away).all():
+            return away
     if site.kind is SiteKind.EDGE:
         curve = boundary.edges[site.index].curve
         if isinstance(curve, Circle):
             return axial_split(points, curve.centre, cross(curve.x, curve.y))[1]
     raise GeometryError(f"the {site.kind.value} {site.name} has no reflexive curve or point")
-
-
-def _from_carrier_locus(carrier: Carrier, points: Array) -> Array:
-    match carrier:
-        case Sphere():
-            return norm(points - carrier.centre)
-        case Cylinder():
-            return axial_split(points, carrier.point, carrier.axis)[1]
-        case Cone():
-            return axial_split(points, carrier.apex, carrier.axis)[1]
-        case Torus():
-            z, rho, _ = axial_split(points, carrier.centre, carrier.axis)
-            return np.minimum(rho, np.hypot(rho - carrier.major, z))
-        case _:
-            raise GeometryError(f"a {carrier.kind} has no reflexive locus")

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 
-from decomp.carriers import Sphere
+from decomp.carriers import Carrier
 from decomp.curves.circle import Circle
 from decomp.sites import SiteIndex
 from decomp.skeletons.balls.fields import site_fields
@@ -97,7 +97,7 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
     for (carrier_number, outward), faces in groups.items():
         carrier = boundary.carriers[carrier_number]
         sites = tuple(incidence.face_site[f] for f in faces)
-        if isinstance(carrier, Sphere) and outward > 0:
+        if carrier.locus == 0 and outward > 0:
             found.extend(_centre(index, incidence, carrier, sites))
         locus = locus_of(carrier, outward, boundary.bounds)
         if locus is not None:
@@ -123,18 +123,18 @@ def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePa
 
 
 def _centre(
-    index: SiteIndex, incidence: Incidence, sphere: Sphere, sites: tuple[int, ...]
+    index: SiteIndex, incidence: Incidence, ball: Carrier, sites: tuple[int, ...]
 ) -> list[ReflexivePart]:
-    centre = sphere.centre[None]
+    centre = ball.place[None]
     found = index.nearest(centre)
     size = incidence.boundary.diagonal
-    depth = sphere.radius - float(found.distance[0])
+    depth = ball.width - float(found.distance[0])
     if found.region[0] != incidence.region or depth > ZERO * size:
         return []
     rng = np.random.default_rng(0)
     ways = rng.normal(size=(AROUND, 3))
     ways /= norm(ways)[:, None]
-    if not _touched(index, incidence, centre, ways, sphere.radius).sum() > 1:
+    if not _touched(index, incidence, centre, ways, ball.width).sum() > 1:
         return []
     return [ReflexivePart(sites, None, 0.0, 0.0, np.repeat(centre, 2, axis=0), (-1, -1))]
 

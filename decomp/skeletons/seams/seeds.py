@@ -100,7 +100,7 @@ def _scattered(
     carrier = boundary.carriers[face.carrier]
     edges = [boundary.edges[e].samples for loop in face.loops for e, _ in loop]
     around = np.concatenate([*edges, face.point[None]])
-    if carrier.kind == "plane":
+    if carrier.flat:
         x, y = frame(carrier.normal(face.point))
         flat = np.stack([around @ x, around @ y], axis=1)
         _, _, turn = np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)

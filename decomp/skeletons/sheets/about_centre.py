@@ -11,7 +11,6 @@ import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Edge, RegionBoundary
-from decomp.carriers import Sphere
 from decomp.vectors import Array, dot, norm
 
 ALONG = 2049
@@ -45,9 +44,9 @@ def about_centre(
     Returns:
         None if none of the points is the centre of a ball on whose face the edge lies.
     """
-    balls = [c for c in (boundary.carriers[k] for k in edge.carriers) if isinstance(c, Sphere)]
+    balls = [c for c in (boundary.carriers[k] for k in edge.carriers) if c.locus == 0]
     for ball in balls:
-        away = norm(points - ball.centre)
+        away = norm(points - ball.place)
         inner = away <= near
         if not inner.any() or inner.all():
             continue

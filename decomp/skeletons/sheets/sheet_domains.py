@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.carriers import Sphere
 from decomp.carriers.axial import axial_split
 from decomp.complex.footprints.domains import Domain, domain_of
 from decomp.curves.circle import Circle
@@ -181,8 +180,7 @@ class SheetDomains:
         """A direction from a sphere's centre in which no sheet of the pair lies."""
         face = self._boundary.faces[self._incidence.sites[site].index]
         sphere = self._boundary.carriers[face.carrier]
-        assert isinstance(sphere, Sphere)
-        centre, radius = sphere.centre, sphere.radius
+        centre, radius = sphere.place, sphere.width
         rng = np.random.default_rng(0)
         ways = rng.normal(size=(WAYS, 3))
         ways /= norm(ways)[:, None]

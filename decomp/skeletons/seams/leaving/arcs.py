@@ -18,7 +18,7 @@ from scipy.optimize import brentq  # type: ignore[import-untyped]
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity, Face, RegionBoundary
-from decomp.carriers import Carrier, Cone, Cylinder, Sphere, Torus
+from decomp.carriers import Carrier, Cone, Cylinder, Torus
 from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind, faces_at
@@ -68,7 +68,7 @@ class Arcs:
         self._round = {
             k: face
             for k, face in enumerate(boundary.faces)
-            if isinstance(boundary.carriers[face.carrier], (Cylinder, Cone, Torus))
+            if boundary.carriers[face.carrier].locus == 1
         }
         self._circles = {
             k: edge.curve
@@ -78,7 +78,7 @@ class Arcs:
         self._balls = {
             k: face
             for k, face in enumerate(boundary.faces)
-            if isinstance(boundary.carriers[face.carrier], Sphere)
+            if boundary.carriers[face.carrier].locus == 0
         }
 
     def leaving(self, touching: Contacts, point: Array) -> tuple[Contacts, list[SeamRay]]:
@@ -158,8 +158,7 @@ class Arcs:
             gap = float(reflexive_gap(carrier, outward, last.point[None])[0])
             of_faces = all(faces & set(self._faces_at(site)) for site in last.sites)
             if gap <= NEAR * self._size and of_faces:
-                assert isinstance(carrier, Sphere)
-                return carrier.centre
+                return carrier.place
         return None
 
     def on_axis(self, last: State, intruder: int, near: Array) -> Array | None:
