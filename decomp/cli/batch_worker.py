@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from decomp.cli.ending import EndedError, endings, leave
-from decomp.meshing.backends.tetwild.lifeline import die_with_parent
+from decomp.processes.lifeline import die_with_parent
 
 
 def main() -> int:

@@ -1,7 +1,7 @@
 """From a model to a tetrahedral mesh with a name on every cell, face, interface and sheet.
 
 1. The exact skeleton, as one complex of triangles; without cells the exact boundary.
-2. fTetWild fills the box around it with tetrahedra that conform to it.
+2. A mesher fills it with tetrahedra that conform to it.
 3. Each tetrahedron is told its cell, each triangle between cells its patch, by exact queries.
 4. Nodes are moved onto the exact surfaces, curves and points that they belong to.
 """
@@ -30,7 +30,8 @@ from decomp.meshes.grouping import Chosen, Volumes
 from decomp.meshes.model import FoundBy, TetMesh, regrouped
 from decomp.meshes.moved import moved_mesh
 from decomp.meshes.parts import Parts
-from decomp.meshing.backends.tetwild.child import TimeLimit
+from decomp.meshing.backends.base import TimeLimit
+from decomp.meshing.backends.table import mesher
 from decomp.meshing.exact.quadratic import quadratic
 from decomp.meshing.far.nearer import Nearer, brought_near
 from decomp.meshing.far.sweeping import far_groups, swept
@@ -49,9 +50,9 @@ from decomp.ways.skeleton import Method, checked_method
 from decomp.ways.surfaces import surfaces_by
 
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
-"""Seconds that TetWild may compute, in all and for each expected tetrahedron."""
+"""Seconds that a mesher may compute, in all and for each expected tetrahedron."""
 PREPARED, FILLED = 0.35, 0.95
-"""Which part of the whole is behind when TetWild begins, and when its mesh is in place."""
+"""Which part of the whole is behind when the mesher begins, and when its mesh is in place."""
 
 
 def mesh(
@@ -103,7 +104,7 @@ def mesh(
             nodes, named by the faces that meet there: `part/base.zmax&hole.side`.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.meshes.fields`).
-        timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
+        timeout: seconds that the mesher may take; by default ten minutes of computing, or 5 ms for
             each expected tetrahedron where that is more, and four times as long by the clock.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
         method: how the skeleton is found, as of `decomp.skeleton`.
@@ -113,7 +114,7 @@ def mesh(
             into memory.
         FileError: the file cannot be read.
         GeometryError: the solid or its skeleton cannot be computed.
-        MeshingError: TetWild fails.
+        MeshingError: the mesher, TetWild, fails.
     """
     order = one_of(order, (1, 2), "order")
     cells = one_of(cells, ("skeleton", "face", "none"), "cells")
@@ -164,7 +165,7 @@ def _meshed(
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
     seconds = options.seconds
     limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
-    made = filled(given, limit, _between(tell, PREPARED, FILLED))
+    made = filled(given, mesher(), limit, _between(tell, PREPARED, FILLED))
     if options.order == 2:
         tell("curving", FILLED)
     points, tets, triangles = _elements(given, made, options.order)
@@ -222,7 +223,7 @@ def _meshed_near(
 
 
 def _prepared(geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress) -> Prepared:
-    """What TetWild is given; where there is no skeleton for it, how to do without is said."""
+    """What a mesher is given; where there is no skeleton for it, how to do without is said."""
     try:
         return prepared(geometry, wanted, options.cells, surfaces_by(options.method), tell)
     except GeometryError as error:
