@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -22,7 +22,6 @@ from decomp.errors import DecompError, FileError, InputError
 from decomp.files.targets import check_outputs, reason
 from decomp.meshes.files.table import FORMATS
 from decomp.plain import plain
-from decomp.ways.options import MeshOptions
 
 PATIENCE = 1.5
 """Seconds that a process is given to end when it is asked to."""
@@ -47,12 +46,12 @@ class Outcome:
     error: str
 
 
-def run(options: argparse.Namespace, asked: MeshOptions) -> None:
+def run(options: argparse.Namespace, first: MeshJob) -> None:
     """Mesh all models into a directory, tell of each, fail if any did.
 
     Args:
         options: of the command.
-        asked: what they ask of each mesh.
+        first: what they ask for, of the first model.
 
     Raises:
         InputError: two would be written to one file.
@@ -65,7 +64,7 @@ def run(options: argparse.Namespace, asked: MeshOptions) -> None:
     if are_streams([*options.models, *options.output]):
         raise InputError("- is one model or one file; of several each has a name")
     pairs = zip(options.models, _targets(options), strict=True)
-    jobs = [MeshJob.of(options, model, (target,), asked) for model, target in pairs]
+    jobs = [replace(first, model=model, outputs=(target,)) for model, target in pairs]
     outcomes = _meshed(jobs, options.jobs or 1, options.quiet)
     if not options.quiet:
         say(table(outcomes))

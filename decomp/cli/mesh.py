@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from decomp.cli.arguments import add_output, are_streams, count, input_path, positive
 from decomp.cli.mesh_job import MeshJob, done, written
-from decomp.cli.mesh_options import add_options, mesh_options
+from decomp.cli.mesh_options import add_options
 from decomp.cli.models import add_outside
 from decomp.cli.said import say
 
@@ -116,16 +117,15 @@ def run(options: argparse.Namespace) -> None:
     from decomp.meshes.files import form_of
     from decomp.meshes.report import as_json, as_text
 
-    asked = mesh_options(options)
+    job = MeshJob.of(options)
     several = len(options.models) > 1 or options.jobs or options.format
     if several or any(path.is_dir() for path in options.output):
         from decomp.cli import batch
 
-        batch.run(options, asked)
+        batch.run(options, job)
         return
-    model = options.models[0]
-    outputs = options.output or [_default(model)]
-    job = MeshJob.of(options, model, tuple(outputs), asked)
+    outputs = options.output or [_default(job.model)]
+    job, asked = replace(job, outputs=tuple(outputs)), job.options
     forms = [form_of(path) for path in outputs]
     checked_fields(asked.fields, with_cells=asked.with_cells)
     if asked.fields and not any(form.fields for form in forms):
@@ -135,7 +135,7 @@ def run(options: argparse.Namespace) -> None:
         if path is not None:
             known_suffix(path, (suffix,), what)
     others = [path for path, *_ in more if path is not None]
-    check_outputs([*outputs, *others], [model, options.group_file])
+    check_outputs([*outputs, *others], [job.model, options.group_file])
     try:
         with reporting(options.quiet) as tell:
             mesh, figures = done(job, tell)

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from decomp.cli.mesh_options import mesh_options
 from decomp.cli.models import Around, model_of
 from decomp.ways.options import MeshOptions
 
@@ -36,15 +37,16 @@ class MeshJob:
     version: str
 
     @classmethod
-    def of(
-        cls, options: argparse.Namespace, model: Path, outputs: tuple[Path, ...], asked: MeshOptions
-    ) -> MeshJob:
-        """What the command's options ask for.
+    def of(cls, options: argparse.Namespace) -> MeshJob:
+        """What the options of `decomp mesh` ask for, of the first model.
 
         Raises:
             InputError: they do not go together.
+            FileError: the file of groups cannot be read, or holds something else.
         """
-        version = "2.2" if options.msh2 else "4.1"
+        model, version = options.models[0], "2.2" if options.msh2 else "4.1"
+        outputs = tuple(options.output)
+        asked = mesh_options(options)
         return cls(model, outputs, Around.of(options), asked, options.ascii, version)
 
     def as_json(self) -> dict[str, Any]:

@@ -63,8 +63,8 @@ def test_the_command_reaches_every_option() -> None:
 
 
 def test_a_job_comes_through_to_its_process() -> None:
-    options = options_of(EVERY)
-    job = MeshJob.of(options, Path("part.geo"), (Path("part.msh"),), mesh_options(options))
+    job = MeshJob.of(options_of(f"{EVERY} -o part.msh"))
+    assert job.outputs == (Path("part.msh"),)
     assert job.around == Around("ball", 3, only=True)
     assert job.version == "2.2"
     again = MeshJob.from_json(json.loads(json.dumps(job.as_json())))
@@ -74,14 +74,18 @@ def test_a_job_comes_through_to_its_process() -> None:
 
 
 def test_options_that_do_not_go_together_are_refused_before_anything_is_read(
-    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Nor is a directory made for a batch."""
+    monkeypatch.chdir(tmp_path)
     for line, said in (
         ("--outside-size 1", "--outside-size needs --outside ball or --outside box"),
         ("--outside-only", "--outside-only needs --outside ball or --outside box"),
     ):
-        assert main(f"mesh none.geo {line}".split()) == 2
-        assert capsys.readouterr().err == f"decomp: error: {said}\n"
+        for models in ("none.geo", "none.geo nil.geo -o out"):
+            assert main(f"mesh {models} {line}".split()) == 2
+            assert capsys.readouterr().err == f"decomp: error: {said}\n"
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_batch_is_meshed_with_all_options(
