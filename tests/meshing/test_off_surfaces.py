@@ -35,7 +35,7 @@ def shaken(monkeypatch: pytest.MonkeyPatch) -> dict[str, int]:
         counted["nodes"] = len(nodes)
         return replace(made, fit=replace(made.fit, points=points))
 
-    monkeypatch.setattr("decomp.meshing.filled", spoilt)
+    monkeypatch.setattr("decomp.ways.mesh.filled", spoilt)
     return counted
 
 
