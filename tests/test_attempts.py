@@ -139,7 +139,7 @@ def test_verbose(
             first = GeometryError("a", ["hole.side", "plate.zmax"])
             return first_of([failing(first), failing(GeometryError("b"))])
 
-    monkeypatch.setattr("decomp.ways.traced_skeleton", fails)
+    monkeypatch.setattr("decomp.ways.skeleton.traced_skeleton", fails)
     decomp.save(decomp.Block((0, 0, 0), (1, 1, 1)), tmp_path / "a.json")
     out = str(tmp_path / "a.vtu")
     assert main(["skeleton", str(tmp_path / "a.json"), "-o", out]) == 3
