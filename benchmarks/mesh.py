@@ -29,6 +29,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -108,18 +109,19 @@ def figures(points: Any, tets: Any, exact: float) -> dict[str, float]:
 
 def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
     """The whole way; tells the edge length and epsilon that TetWild was given, too."""
-    from decomp.meshing import tetrahedra
+    from decomp.meshing.backends.base import Tetrahedra
+    from decomp.meshing.backends.tetwild import mesher
     from decomp.ways import mesh as meshing
 
     meshing.mesh(SOLIDS["conical pit"].make())  # loads the kernels
     asked: list[Any] = []
-    original = tetrahedra.tetrahedralized
+    tetwild = mesher.MESHER
 
-    def recording(points: Any, triangles: Any, settings: Any, *rest: Any, **more: Any) -> Any:
-        asked.append(settings)
-        return original(points, triangles, settings, *rest, **more)
+    def recording(task: Any, *rest: Any) -> Tetrahedra:
+        asked.append(task)
+        return tetwild.run(task, *rest)
 
-    tetrahedra.tetrahedralized = recording
+    mesher.MESHER = replace(tetwild, run=recording)
     source = source_of(name)
     geometry = Geometry(source)
     size = geometry.diagonal / EDGES
@@ -129,8 +131,8 @@ def by_decomp(name: str, given: dict[str, float]) -> dict[str, float]:
     exact = geometry.regions[0].volume
     names = {"names": float(len(made.groups)), "unprojected": float(len(made.unprojected))}
     told = {
-        "edge": asked[-1].edge_length,
-        "epsilon": asked[-1].epsilon,
+        "edge": asked[-1].length,
+        "epsilon": asked[-1].tolerance,
         "exact": exact,
     }
     return spent | figures(made.points, made.tets[:, :4], exact) | names | told

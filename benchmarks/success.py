@@ -31,6 +31,7 @@ from benchmarks.parts import FAMILIES, drawn
 from decomp.checking.check import check
 from decomp.csg.solid import Solid
 from decomp.errors import GeometryError
+from decomp.files.format import suffixes
 from decomp.formats import FORMATS
 from decomp.geometry import Geometry
 from decomp.skeletons.model import Method
@@ -57,7 +58,7 @@ def files(folders: list[Path]) -> Iterator[tuple[str, Make]]:
     """All models below some folders."""
     for folder in folders:
         for path in sorted(folder.rglob("*")):
-            if path.suffix.removeprefix(".") in FORMATS:
+            if path.suffix in suffixes(FORMATS):
                 yield str(path), lambda path=path: path
 
 

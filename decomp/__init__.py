@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from decomp.meshes.model import TetMesh as TetMesh
     from decomp.meshes.report import Report as Report
     from decomp.meshes.report import report as report
-    from decomp.meshing.backends.tetwild.child import MeshingError as MeshingError
+    from decomp.meshing.backends.base import MeshingError as MeshingError
     from decomp.midsurfaces.facing import MidSurface as MidSurface
     from decomp.midsurfaces.facing import mid_surface as mid_surface
     from decomp.outside import with_outside as with_outside
@@ -111,7 +111,7 @@ _HOMES = {
     "decomp.outside": ("with_outside",),
     "decomp.sites": ("Nearest",),
     "decomp.checking.check": ("Checked", "check"),
-    "decomp.meshing.backends.tetwild.child": ("MeshingError",),
+    "decomp.meshing.backends.base": ("MeshingError",),
     "decomp.meshes.group": ("Group", "GroupKind"),
     "decomp.meshes.model": ("TetMesh",),
     "decomp.meshes.files.reading": ("read",),

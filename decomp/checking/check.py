@@ -29,8 +29,9 @@ from decomp.csg.model import Model
 from decomp.csg.solid import Solid
 from decomp.geometry import Geometry
 from decomp.meshes.about import about
+from decomp.meshes.files import read_file
 from decomp.meshes.files.finest import finest
-from decomp.meshes.files.msh_reader import ReadMesh, read_msh
+from decomp.meshes.files.msh_reader import ReadMesh
 from decomp.meshes.incidence import faces_of, row_keys
 from decomp.meshes.model import TetMesh
 from decomp.meshing.surface.surface import SurfaceMaker, Surfaces
@@ -187,7 +188,7 @@ def _as_read(mesh: TetMesh | ReadMesh | str | Path) -> ReadMesh:
     if isinstance(mesh, ReadMesh):
         return mesh
     if not isinstance(mesh, TetMesh):
-        return read_msh(path_of(mesh, "the mesh's file"))
+        return read_file(path_of(mesh, "the mesh's file"))
     names = {(group.dimension, group.tag): group.name for group in mesh.groups}
     return ReadMesh(
         mesh.points,

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path, PosixPath
 
+from decomp.files.format import Format, told
+
 
 class Stream(PosixPath):
     """A stream of this process whose format is named, which its path does not tell."""
@@ -44,12 +46,12 @@ def are_streams(paths: Sequence[Path]) -> bool:
     return any(isinstance(path, Stream) for path in paths)
 
 
-def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: str = "") -> None:
+def add_output(parser: argparse.ArgumentParser, formats: Sequence[Format], more: str = "") -> None:
     """Add -o, which may be given several times.
 
     Args:
         parser: of a command.
-        suffixes: of the files that can be written.
+        formats: that can be written.
         more: what else its help says.
     """
     parser.add_argument(
@@ -59,8 +61,8 @@ def add_output(parser: argparse.ArgumentParser, suffixes: Sequence[str], more: s
         action="append",
         default=[],
         metavar="OUT",
-        help=f"file to write, ending in {', '.join(suffixes)}; - is stdout, "
-        f"{suffixes[1][1:]}:- stdout in that format; may be given several times{more}",
+        help=f"file to write, ending in {told(formats)}; - is stdout, "
+        f"{formats[1].name}:- stdout in that format; may be given several times{more}",
     )
 
 
@@ -76,4 +78,19 @@ def positive(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
     if not isfinite(value) or value <= 0:
         raise argparse.ArgumentTypeError(f"must be above 0, not {text}")
+    return value
+
+
+def count(text: str) -> int:
+    """A whole number from 1.
+
+    Raises:
+        argparse.ArgumentTypeError: it is none.
+    """
+    try:
+        value = int(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
+    if value < 1:
+        raise argparse.ArgumentTypeError(f"must be 1 or more, not {text}")
     return value

@@ -10,24 +10,19 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
 from decomp.cli.arguments import are_streams
+from decomp.cli.mesh_job import MeshJob
 from decomp.cli.said import say
 from decomp.errors import DecompError, FileError, InputError
 from decomp.files.targets import check_outputs, reason
+from decomp.meshes.files.table import FORMATS
 from decomp.plain import plain
 
-PASSED = (
-    *("size", "sizes", "size_at", "outside_size"),
-    *("layers", "circle", "order", "cells", "method", "volumes", "sheets", "fields"),
-    *("groups", "split_faces", "edges"),
-    *("ascii", "msh2", "timeout", "quiet", "outside", "outside_only"),
-)
-"""Options that are handed on."""
 PATIENCE = 1.5
 """Seconds that a process is given to end when it is asked to."""
 
@@ -51,8 +46,12 @@ class Outcome:
     error: str
 
 
-def run(options: argparse.Namespace) -> None:
+def run(options: argparse.Namespace, first: MeshJob) -> None:
     """Mesh all models into a directory, tell of each, fail if any did.
+
+    Args:
+        options: of the command.
+        first: what they ask for, of the first model.
 
     Raises:
         InputError: two would be written to one file.
@@ -64,8 +63,9 @@ def run(options: argparse.Namespace) -> None:
             raise InputError(f"--{name} is for one model; a batch prints a table")
     if are_streams([*options.models, *options.output]):
         raise InputError("- is one model or one file; of several each has a name")
-    targets = _targets(options)
-    outcomes = _meshed(options, targets)
+    pairs = zip(options.models, _targets(options), strict=True)
+    jobs = [replace(first, model=model, outputs=(target,)) for model, target in pairs]
+    outcomes = _meshed(jobs, options.jobs or 1, options.quiet)
     if not options.quiet:
         say(table(outcomes))
     failed = [outcome for outcome in outcomes if outcome.error]
@@ -101,7 +101,7 @@ def _targets(options: argparse.Namespace) -> list[Path]:
     if len(options.output) > 1:
         raise InputError("several models are written into one directory; give -o once")
     folder = options.output[0] if options.output else Path()
-    names = [f"{model.stem}.{options.format or 'msh'}" for model in options.models]
+    names = [f"{model.stem}.{options.format or FORMATS[0].name}" for model in options.models]
     for k, name in enumerate(names):
         if name in names[:k]:
             first = options.models[names.index(name)]
@@ -124,16 +124,15 @@ def _make(folder: Path) -> None:
         ) from None
 
 
-def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcome]:
-    """All models, at most `jobs` at a time; when interrupted, all are stopped."""
+def _meshed(jobs: Sequence[MeshJob], at_a_time: int, quiet: bool) -> list[Outcome]:
+    """All models, some at a time; when interrupted, all are stopped."""
     running = _Workers()
     with (
-        _bars(options.models, options.quiet) as tells,
-        ThreadPoolExecutor(options.jobs or 1) as pool,
+        _bars([job.model for job in jobs], quiet) as tells,
+        ThreadPoolExecutor(at_a_time) as pool,
     ):
-        given = zip(options.models, targets, tells, strict=True)
         try:
-            waiting = [pool.submit(_one, options, *each, running) for each in given]
+            waiting = [pool.submit(_one, *each, running) for each in zip(jobs, tells, strict=True)]
             return [future.result() for future in waiting]
         except BaseException:
             # those that wait are not begun any more
@@ -141,15 +140,8 @@ def _meshed(options: argparse.Namespace, targets: Sequence[Path]) -> list[Outcom
             raise
 
 
-def _one(
-    options: argparse.Namespace,
-    model: Path,
-    target: Path,
-    tell: Tell,
-    running: _Workers,
-) -> Outcome:
+def _one(job: MeshJob, tell: Tell, running: _Workers) -> Outcome:
     start = time.perf_counter()
-    values = {name: getattr(options, name) for name in PASSED}
     process = running.started()
     assert process.stdin is not None
     assert process.stdout is not None
@@ -158,8 +150,7 @@ def _one(
     # one that has died already is told of below; the pipe stays open, as its end tells the
     # process that this one has died
     with suppress(BrokenPipeError):
-        given = json.dumps({**values, "model": str(model), "output": str(target)})
-        process.stdin.write(given + "\n")
+        process.stdin.write(json.dumps(job.as_json()) + "\n")
         process.stdin.flush()
     for line in process.stdout:
         if not line.endswith("\n"):
@@ -175,7 +166,7 @@ def _one(
     if figures is None and not error:
         error = f"ended with code {code}" + (f": {noise[-1]}" if noise else "")
     tell("failed" if error else "done", 1.0)
-    return Outcome(model, time.perf_counter() - start, figures, error)
+    return Outcome(job.model, time.perf_counter() - start, figures, error)
 
 
 class _Workers:

@@ -1,20 +1,18 @@
 """One model of a batch, in a process of its own: `python -m decomp.cli.batch_worker`.
 
-Options come as a line of JSON on stdin, whose end tells it to end too; on stdout go JSON lines:
-`{"what": ..., "done": ...}` while it works, then `{"figures": ...}` (the report) or
+A job (`MeshJob`) comes as a line of JSON on stdin, whose end tells it to end too; on stdout go JSON
+lines: `{"what": ..., "done": ...}` while it works, then `{"figures": ...}` (the report) or
 `{"error": ..., "code": ...}`.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
 from decomp.cli.ending import EndedError, endings, leave
-from decomp.meshing.backends.tetwild.lifeline import die_with_parent
+from decomp.processes.lifeline import die_with_parent
 
 
 def main() -> int:
@@ -33,15 +31,14 @@ def main() -> int:
 
 
 def _meshed(given: dict[str, Any]) -> int:
-    from decomp.cli.mesh import meshed, written
+    from decomp.cli.mesh_job import MeshJob, done, written
     from decomp.errors import DecompError
     from decomp.meshes.report import as_json
 
-    paths = {"model": Path(given["model"]), "output": [Path(given["output"])]}
-    options = argparse.Namespace(**{**given, **paths})
+    job = MeshJob.from_json(given)
     try:
-        mesh, figures = meshed(options, lambda what, done: _say({"what": what, "done": done}))
-        written(mesh, options, options.output)
+        mesh, figures = done(job, lambda what, part: _say({"what": what, "done": part}))
+        written(mesh, job)
     except DecompError as error:
         _say({"error": str(error), "code": error.exit_code})
         return error.exit_code

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
     from decomp.cli.computing import add_options
-    from decomp.skeletons.files import CELL_FORMATS
+    from decomp.files.format import told
+    from decomp.skeletons.files.table import CELL_FORMATS
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "cells",
@@ -41,9 +42,9 @@ def register(commands: Any) -> None:
     )
     parser.add_argument(
         "--format",
-        choices=CELL_FORMATS,
-        default="stl",
-        help="of the files (default stl, which holds single precision only)",
+        choices=[form.name for form in CELL_FORMATS],
+        default=CELL_FORMATS[0].name,
+        help=f"of the files: {told(CELL_FORMATS)} (default {CELL_FORMATS[0].name})",
     )
     parser.set_defaults(run=run)
 

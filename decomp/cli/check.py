@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import input_path, positive
-from decomp.cli.models import FILES, add_outside, model_of
+from decomp.cli.models import FILES, Around, add_outside, model_of
 from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
 
@@ -68,14 +68,15 @@ def run(options: argparse.Namespace) -> None:
     """
     from decomp.checking.check import check
     from decomp.cli.computing import reporting
-    from decomp.formats import FORMATS
+    from decomp.files.format import suffixes
+    from decomp.formats.table import FORMATS
     from decomp.ways.surfaces import surfaces_by
 
-    if options.mesh.suffix.lower().removeprefix(".") in FORMATS:
+    if options.mesh.suffix.lower() in suffixes(FORMATS):
         raise InputError(f"{options.mesh} is a model: give the model first, then its mesh")
     with reporting(options.quiet) as tell:
         found = check(
-            model_of(options, options.model),
+            model_of(options.model, Around.of(options)),
             options.mesh,
             epsilon=options.epsilon,
             volume_error=options.volume_error,

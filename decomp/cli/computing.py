@@ -10,7 +10,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from decomp.cli.arguments import input_path
-from decomp.cli.models import FILES, add_outside, model_of
+from decomp.cli.models import FILES, Around, add_outside, model_of
 from decomp.plain import plain
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def computed(options: argparse.Namespace) -> Skeleton:
 
     with reporting(options.quiet) as report:
         report(f"reading {options.model.name}", 0.0)
-        model = model_of(options, options.model)
+        model = model_of(options.model, Around.of(options))
         report(f"computing the boundary of {model.name}", 0.0)
         geometry = Geometry(model)
         return skeleton(geometry, options.tolerance, report, options.method)

@@ -6,7 +6,9 @@ import argparse
 from typing import Any
 
 from decomp.cli.arguments import input_path, output_path
-from decomp.cli.models import FILES, add_outside, model_of
+from decomp.cli.models import FILES, Around, add_outside, model_of
+from decomp.files.format import told
+from decomp.formats.table import WRITTEN
 
 
 def register(commands: Any) -> None:
@@ -18,7 +20,9 @@ def register(commands: Any) -> None:
         "exactly: its tree, names, transforms and options.",
     )
     parser.add_argument("model", type=input_path, help=FILES)
-    parser.add_argument("output", type=output_path, help="file to write, ending in .json, or -")
+    parser.add_argument(
+        "output", type=output_path, help=f"file to write, ending in {told(WRITTEN)}, or -"
+    )
     add_outside(parser)
     parser.set_defaults(run=run)
 
@@ -28,4 +32,4 @@ def run(options: argparse.Namespace) -> None:
     from decomp.formats import check_saving, save
 
     check_saving(options.output, options.model)
-    save(model_of(options, options.model), options.output)
+    save(model_of(options.model, Around.of(options)), options.output)

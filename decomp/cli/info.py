@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from decomp.cli.arguments import input_path
-from decomp.cli.models import FILES, add_outside, model_of
+from decomp.cli.models import FILES, Around, add_outside, model_of
 from decomp.cli.printed import complain
 from decomp.cli.said import say
 from decomp.errors import DecompError
@@ -76,7 +76,7 @@ def _computed(path: Path, options: argparse.Namespace) -> Geometry:
     from decomp.geometry import Geometry
 
     with working(f"reading {path.name}", options.quiet):
-        model = model_of(options, path)
+        model = model_of(path, Around.of(options))
     with working(f"computing the boundary of {model.name}", options.quiet):
         return Geometry(model)
 

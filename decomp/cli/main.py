@@ -15,7 +15,7 @@ from decomp.cli.parsing import Parser
 from decomp.cli.printed import ReaderGoneError, complain, printing
 from decomp.errors import DecompError, GeometryError
 from decomp.kernels.news import told_of_compiling
-from decomp.meshing.backends.tetwild.workplace import sweep
+from decomp.meshing.backends.table import sweep
 
 EXAMPLES = """\
 examples:

@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Callable, Sequence
-from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from decomp.cli.arguments import add_output, are_streams, input_path, positive
-from decomp.cli.groups import all_groups, named_patterns
-from decomp.cli.models import add_outside, model_of
+from decomp.cli.arguments import add_output, are_streams, count, input_path, positive
+from decomp.cli.mesh_job import MeshJob, done, written
+from decomp.cli.mesh_options import add_options
+from decomp.cli.models import add_outside
 from decomp.cli.said import say
-from decomp.cli.sizes import length_at, named_length
-
-if TYPE_CHECKING:
-    from decomp.meshes.model import TetMesh
-    from decomp.meshes.report import Report
 
 EXAMPLES = """\
 examples:
@@ -37,7 +32,8 @@ examples:
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
-    from decomp.meshes.files import SUFFIXES
+    from decomp.formats.table import listed
+    from decomp.meshes.files.table import FORMATS
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "mesh",
@@ -52,131 +48,22 @@ def register(commands: Any) -> None:
         type=input_path,
         nargs="+",
         metavar="MODEL",
-        help="Netgen .geo, OpenSCAD .csg or decomp .json; of several, -o names a directory",
+        help=f"{listed()}; of several, -o names a directory",
     )
-    add_output(parser, SUFFIXES, " (default: the model's name with .msh, in this directory)")
+    usual = FORMATS[0].name
+    add_output(parser, FORMATS, f" (default: the model's name with .{usual}, in this directory)")
     parser.add_argument(
-        "--jobs", type=_count, metavar="N", help="of several models, N at a time (default 1)"
+        "--jobs", type=count, metavar="N", help="of several models, N at a time (default 1)"
     )
     parser.add_argument(
         "--format",
-        choices=[suffix[1:] for suffix in SUFFIXES],
-        help="of several models: what is written (default msh)",
+        choices=[form.name for form in FORMATS],
+        help=f"of several models: what is written (default {usual})",
     )
-    _size_options(parser)
-    _tag_options(parser)
+    add_options(parser)
     _file_options(parser)
     add_outside(parser)
     parser.set_defaults(run=run)
-
-
-def _size_options(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("size of elements")
-    group.add_argument(
-        "--size",
-        type=positive,
-        metavar="H",
-        help="length of edges, in model units: none is longer than 1.5 H, and where nothing asks "
-        "for shorter ones they are 0.75 to 1.05 H in the mean (default: from the model)",
-    )
-    group.add_argument(
-        "--maxh",
-        dest="sizes",
-        type=named_length,
-        action="append",
-        default=[],
-        metavar="PATTERN=H",
-        help="length of edges in regions, or at most on faces, that a pattern stands for, such as "
-        "'*/bolt*.side=0.5'; may be given several times, the last that fits counts",
-    )
-    group.add_argument(
-        "--size-at",
-        type=length_at,
-        action="append",
-        default=[],
-        metavar="X,Y,Z[,R]=H",
-        help="length of edges at most at a point, in the ball of radius R about it, or in a box: "
-        "X,Y,Z,X,Y,Z=H; may be given several times",
-    )
-    group.add_argument(
-        "--outside-size",
-        type=positive,
-        metavar="H",
-        help="length of edges at the end of what --outside adds; from the model outwards they grow",
-    )
-    group.add_argument(
-        "--layers",
-        type=_count,
-        metavar="N",
-        help="at least N elements across the local thickness",
-    )
-    group.add_argument(
-        "--circle",
-        type=positive,
-        metavar="N",
-        help="at least N elements around a full circle",
-    )
-    group.add_argument(
-        "--order",
-        type=int,
-        choices=(1, 2),
-        default=1,
-        help="2: 10-node tetrahedra with curved sides (default 1)",
-    )
-
-
-def _tag_options(parser: argparse.ArgumentParser) -> None:
-    from decomp.cli.computing import add_method
-
-    group = parser.add_argument_group("physical groups")
-    group.add_argument(
-        "--cells",
-        choices=("skeleton", "face", "none"),
-        default="skeleton",
-        help="skeleton: what the skeleton alone bounds (default); face: one cell for each face; "
-        "none: regions, faces and interfaces alone, which needs no skeleton",
-    )
-    add_method(group)
-    group.add_argument(
-        "--volumes",
-        choices=("regions", "cells", "materials"),
-        default="regions",
-        help="one volume for each region (default), for each cell, or for all regions with one "
-        "-material and each without one",
-    )
-    group.add_argument(
-        "--sheets",
-        action=argparse.BooleanOptionalAction,
-        default=False,
-        help="triangles between the cells of a region as groups too (default: they are none)",
-    )
-    group.add_argument(
-        "--group",
-        dest="groups",
-        type=named_patterns,
-        action="append",
-        default=[],
-        metavar="NAME=PATTERN,...",
-        help="one group for all faces, regions or edges that patterns stand for, such as "
-        "'bolts=*/bolt*.side'; may be given several times",
-    )
-    group.add_argument(
-        "--groups",
-        dest="group_file",
-        type=Path,
-        metavar="FILE.toml",
-        help='the same from a file: lines such as bolts = ["*/bolt*.side", "*/nut*.side"]',
-    )
-    group.add_argument(
-        "--split-faces",
-        action="store_true",
-        help="pieces of one face (base.zmax, base.zmax@2) as groups of their own (default: one)",
-    )
-    group.add_argument(
-        "--edges",
-        action="store_true",
-        help="edges and vertices as groups too, named by their faces: part/base.zmax&hole.side",
-    )
 
 
 def _file_options(parser: argparse.ArgumentParser) -> None:
@@ -189,8 +76,8 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
         type=lambda text: text.split(","),
         default=[],
         metavar="NAME,...",
-        help="write values into .vtu and .msh: distance and thickness at nodes; nearest (surface), "
-        "cell and region of tetrahedra",
+        help=f"write values into {_with_fields()}: distance and thickness at nodes; nearest "
+        "(surface), cell and region of tetrahedra",
     )
     group.add_argument(
         "--report", type=Path, metavar="FILE.json", help="write all figures to a JSON file"
@@ -211,42 +98,52 @@ def _file_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _with_fields() -> str:
+    """The suffixes of formats that have values on the mesh."""
+    from decomp.files.format import suffixes
+    from decomp.meshes.files.table import FORMATS
+
+    return " and ".join(suffixes([form for form in FORMATS if form.fields]))
+
+
 def run(options: argparse.Namespace) -> None:
     """Check the outputs, mesh, write, print."""
+    from decomp.cli.computing import reporting
     from decomp.errors import GeometryError, InputError
     from decomp.files.suffixes import known_suffix
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
     from decomp.meshes.fields import checked_fields
-    from decomp.meshes.files import suffix_of
+    from decomp.meshes.files import form_of
     from decomp.meshes.report import as_json, as_text
 
-    options.groups = all_groups(options.groups, options.group_file)
+    job = MeshJob.of(options)
     several = len(options.models) > 1 or options.jobs or options.format
     if several or any(path.is_dir() for path in options.output):
         from decomp.cli import batch
 
-        batch.run(options)
+        batch.run(options, job)
         return
-    options.model = options.models[0]
-    outputs = options.output or [_default(options.model)]
-    suffixes = {suffix_of(path) for path in outputs}
-    checked_fields(options.fields, with_cells=options.cells != "none")
-    if options.fields and not suffixes & {".msh", ".vtu"}:
-        raise InputError("--fields are written into .msh and .vtu files; give one with -o")
+    outputs = options.output or [_default(job.model)]
+    job, asked = replace(job, outputs=tuple(outputs)), job.options
+    forms = [form_of(path) for path in outputs]
+    checked_fields(asked.fields, with_cells=asked.with_cells)
+    if asked.fields and not any(form.fields for form in forms):
+        raise InputError(f"--fields are written into {_with_fields()} files; give one with -o")
     more = ((options.report, ".json", "reports"), (options.html, ".html", "pages"))
     for path, suffix, what in more:
         if path is not None:
             known_suffix(path, (suffix,), what)
     others = [path for path, *_ in more if path is not None]
-    check_outputs([*outputs, *others], [options.model, options.group_file])
+    check_outputs([*outputs, *others], [job.model, options.group_file])
     try:
-        mesh, figures = meshed(options)
+        with reporting(options.quiet) as tell:
+            mesh, figures = done(job, tell)
     except GeometryError as error:
         if options.report is not None:
             write_whole(options.report, _as_bytes({"failed": error.as_json()}))
         raise
-    written(mesh, options, outputs)
+    written(mesh, job)
     if options.report is not None:
         write_whole(options.report, _as_bytes(as_json(figures)))
     if options.html is not None:
@@ -270,90 +167,9 @@ def _default(model: Path) -> Path:
     """
     from decomp.files.targets import same_file
     from decomp.formats import load
+    from decomp.meshes.files.table import FORMATS
 
-    output = Path(f"{model.stem or 'model'}.msh")
+    output = Path(f"{model.stem or 'model'}.{FORMATS[0].name}")
     if same_file(output, model):
         load(model)
     return output
-
-
-def written(mesh: TetMesh, options: argparse.Namespace, outputs: Sequence[Path]) -> None:
-    """Write a mesh to files as the options say."""
-    from decomp.meshes.files import write
-
-    for path in outputs:
-        write(mesh, path, text=options.ascii, version="2.2" if options.msh2 else "4.1")
-
-
-def meshed(
-    options: argparse.Namespace, told: Callable[[str, float], None] | None = None
-) -> tuple[TetMesh, Report]:
-    """Load the model and mesh it, with signs of life.
-
-    Args:
-        options: of the command.
-        told: what is being done and how far it is; by default a bar on stderr is.
-
-    Raises:
-        DecompError: the model cannot be read, is no solid, or cannot be meshed.
-    """
-    from decomp.cli.computing import reporting
-    from decomp.cli.stages import Stages
-    from decomp.geometry import Geometry
-    from decomp.meshes.report import report
-    from decomp.ways.mesh import mesh
-
-    with nullcontext(told) if told else reporting(options.quiet) as tell:
-        stages = Stages(tell)
-        stages("reading", 0.0)
-        model = model_of(options, options.model)
-        stages("boundary", 0.0)
-        geometry = Geometry(model)
-        made = mesh(
-            geometry,
-            size=options.size,
-            sizes=_sizes(options),
-            size_at=options.size_at,
-            layers=options.layers,
-            elements_per_circle=options.circle,
-            order=options.order,
-            cells=options.cells,
-            volumes=options.volumes,
-            sheets=options.sheets,
-            groups=options.groups,
-            split_faces=options.split_faces,
-            edges=options.edges,
-            fields=options.fields,
-            timeout=options.timeout,
-            progress=stages,
-            method=options.method,
-        )
-        spent = stages.spent()
-    return made, report(made, stages=spent, ignored=geometry.model.ignored)
-
-
-def _sizes(options: argparse.Namespace) -> dict[str, float]:
-    """Lengths by pattern.
-
-    Raises:
-        InputError: one is asked for what is not there.
-    """
-    from decomp.errors import InputError
-    from decomp.outside import OUTSIDE
-
-    sizes = dict(options.sizes)
-    if options.outside_size is not None:
-        if options.outside is None:
-            raise InputError("--outside-size needs --outside ball or --outside box")
-        sizes[OUTSIDE] = options.outside_size
-    return sizes
-
-
-def _count(text: str) -> int:
-    try:
-        value = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is no whole number") from None
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"must be 1 or more, not {text}")
-    return value

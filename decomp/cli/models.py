@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from decomp.cli.arguments import positive
+from decomp.formats.table import FORMATS, listed
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
 
 SHAPES = ("ball", "box")
-FILES = "Netgen .geo, OpenSCAD .csg or decomp .json; - or geo:- for stdin"
+FILES = f"{listed()}; - or {FORMATS[0].name}:- for stdin"
 
 
 def add_outside(parser: argparse.ArgumentParser) -> None:
@@ -33,25 +35,52 @@ def add_outside(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def model_of(options: argparse.Namespace, path: Path) -> Model:
-    """The model in a file, with what the options ask for around it.
+@dataclass(frozen=True)
+class Around:
+    """The space around a model that is asked for.
+
+    Args:
+        shape: `ball` or `box`; None for nothing.
+        factor: how far it reaches from the middle, in diagonals of the model; None for as usual.
+        only: whether the model's own regions are left out.
+    """
+
+    shape: Literal["ball", "box"] | None = None
+    factor: float | None = None
+    only: bool = False
+
+    @classmethod
+    def of(cls, options: argparse.Namespace) -> Around:
+        """What the options of `add_outside` ask for.
+
+        Raises:
+            InputError: `--outside-only` without `--outside`.
+        """
+        from decomp.errors import InputError
+
+        if options.outside is None:
+            if options.outside_only:
+                raise InputError("--outside-only needs --outside ball or --outside box")
+            return cls()
+        shape, factor = options.outside
+        return cls(shape, factor, options.outside_only)
+
+
+def model_of(path: Path, around: Around) -> Model:
+    """The model in a file, with what is asked for around it.
 
     Raises:
-        InputError: `--outside-only` without `--outside`, or the model has such a region already.
+        InputError: the model has such a region already.
         FileError: the file cannot be read.
         GeometryError: there is to be something around a model whose boundary cannot be computed.
     """
-    from decomp.errors import InputError
     from decomp.formats import load
 
-    if options.outside is None:
-        if options.outside_only:
-            raise InputError("--outside-only needs --outside ball or --outside box")
+    if around.shape is None:
         return load(path)
     from decomp.outside import FACTOR, with_outside
 
-    shape, factor = options.outside
-    return with_outside(path, shape, factor or FACTOR, only=options.outside_only)
+    return with_outside(path, around.shape, around.factor or FACTOR, only=around.only)
 
 
 def _outside(text: str) -> tuple[str, float | None]:

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
     from decomp.cli.computing import add_options
-    from decomp.skeletons.files import SUFFIXES
+    from decomp.files.format import told
+    from decomp.midsurfaces import table as midsurfaces
+    from decomp.skeletons.files.table import FORMATS
 
     parser: argparse.ArgumentParser = commands.add_parser(
         "skeleton",
@@ -30,7 +32,7 @@ def register(commands: Any) -> None:
         "walls which face each other, with the thickness at every point.",
     )
     add_options(parser)
-    add_output(parser, SUFFIXES, "; with --facing .vtu, .ply, .obj or .stl")
+    add_output(parser, FORMATS, f"; with --facing {told(midsurfaces.FORMATS)}")
     parser.add_argument(
         "--facing",
         type=_angle,
@@ -51,7 +53,7 @@ def run(options: argparse.Namespace) -> None:
     """Check the outputs, compute, write, print."""
     from decomp.cli.computing import computed
     from decomp.files.targets import check_outputs
-    from decomp.skeletons.files import suffix_of, write
+    from decomp.skeletons.files import form_of, write
 
     if options.json and are_streams(options.output):
         raise InputError("--json prints to stdout, where -o - writes the skeleton: leave one away")
@@ -59,7 +61,7 @@ def run(options: argparse.Namespace) -> None:
         _run_facing(options)
         return
     for path in options.output:
-        suffix_of(path)
+        form_of(path)
     check_outputs(options.output, [options.model])
     skeleton = computed(options)
     for path in options.output:
@@ -78,13 +80,13 @@ def _run_facing(options: argparse.Namespace) -> None:
     from decomp.cli.computing import computed
     from decomp.files.targets import check_outputs
     from decomp.midsurfaces.facing import mid_surface
-    from decomp.midsurfaces.files import suffix_of
+    from decomp.midsurfaces.files import form_of
 
     for name in ("boundary", "trims", "json"):
         if getattr(options, name):
             raise InputError(f"--facing writes sheets alone; leave --{name} away")
     for path in options.output:
-        suffix_of(path)
+        form_of(path)
     check_outputs(options.output, [options.model])
     skeleton = computed(options)
     surface = mid_surface(skeleton, options.facing)

@@ -9,17 +9,24 @@ from decomp.cli import look
 from decomp.cli.arguments import add_output, are_streams
 from decomp.cli.said import say
 from decomp.errors import InputError
+from decomp.files.format import Format, suffixes
+from decomp.formats.table import listed
 
 if TYPE_CHECKING:
     from decomp.drawing.scene import Scene
 
-SUFFIXES = (".html", ".png")
+FORMATS = (
+    Format("a page", (".html",), "decomp.view.page"),
+    Format("a picture", (".png",), "decomp.drawing.picture"),
+)
 
 
 def register(commands: Any) -> None:
     """Add the subcommand to a parser."""
     from decomp.cli.computing import add_options
+    from decomp.meshes.files.table import READ
 
+    meshes = ", ".join(suffixes(READ))
     parser: argparse.ArgumentParser = commands.add_parser(
         "view",
         help="look at a model's skeleton and cells, a mesh, or a skeleton's file",
@@ -28,8 +35,8 @@ def register(commands: Any) -> None:
         "without a network: turn, cut, explode, find by name, colour by any field; .png is a "
         "picture with names and a bar of lengths.",
     )
-    add_options(parser, "Netgen .geo, OpenSCAD .csg, decomp .json, .msh, or a skeleton's .vtu")
-    add_output(parser, SUFFIXES)
+    add_options(parser, f"{listed(last=', ')}, {meshes}, or a skeleton's .vtu")
+    add_output(parser, FORMATS)
     look.add_options(parser)
     parser.set_defaults(run=run)
 
@@ -44,15 +51,15 @@ def run(options: argparse.Namespace) -> None:
     from decomp.view import page
     from decomp.view.reading import MODELS, scene_of
 
-    suffixes = [known_suffix(path, SUFFIXES, "views") for path in options.output]
-    taken = look.checked(options, suffixes)
+    given = [known_suffix(path, suffixes(FORMATS), "views") for path in options.output]
+    taken = look.checked(options, given)
     check_outputs(options.output, [options.model])
     is_model = options.model.suffix.lower() in MODELS
     if not is_model and options.outside:
         raise InputError(f"--outside is for models; {options.model} is what was made of one")
     skeleton = computed(options) if is_model else None
     scene = scene_of(options.model, skeleton)
-    for path, suffix in zip(options.output, suffixes, strict=True):
+    for path, suffix in zip(options.output, given, strict=True):
         is_page = suffix == ".html"
         write_whole(path, page.encoded(scene) if is_page else picture.encoded(scene, taken))
     if not options.output:

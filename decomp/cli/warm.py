@@ -37,7 +37,7 @@ def _use_all(tell: Any) -> None:
     """Skeletons and a mesh of parts with every kind of carrier, edge and query; a picture of it."""
     from decomp.csg.primitives import Block, Cone, Cylinder, Sphere, Torus
     from decomp.geometry import Geometry
-    from decomp.meshes.files import encoded
+    from decomp.meshes.files import encoded, form_of
     from decomp.ways.mesh import mesh
     from decomp.ways.skeleton import skeleton
 
@@ -56,4 +56,4 @@ def _use_all(tell: Any) -> None:
     tell("meshing", 0.0)
     made = mesh(part, size=2, cells="none", progress=tell)
     tell("drawing", 1.0)
-    encoded(made, ".png")
+    encoded(made, form_of("warm.png"))

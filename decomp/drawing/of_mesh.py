@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from decomp.drawing.scene import Body, Field, Part, Scene
+from decomp.meshes.files import read_file
 from decomp.meshes.files.finest import finest
-from decomp.meshes.files.msh_reader import read_msh
 from decomp.meshes.incidence import faces_of, row_keys
 from decomp.meshes.model import GroupKind, TetMesh
 from decomp.meshes.quality import dihedral_angles, radius_ratios
@@ -49,7 +49,7 @@ def read(path: Path) -> Scene:
     Raises:
         FileError: it cannot be read, or has no tetrahedra.
     """
-    read = read_msh(path)
+    read = read_file(path)
     fine = finest(read)
     count = len(read.triangles)
     surfaces = _named(read.triangles, read.triangle_tags, _of_dimension(read.names, 2))

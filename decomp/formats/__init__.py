@@ -1,4 +1,4 @@
-"""Models from and to files: Netgen `.geo`, OpenSCAD `.csg`, native JSON.
+"""Models from and to files, in the formats of `table.py`.
 
 The readers are loaded when they are first used, as they bring in a parser library.
 """
@@ -9,29 +9,22 @@ import os
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING
 
 from decomp.errors import FileError, InputError, ParseError
-from decomp.files.suffixes import known_suffix
+from decomp.files.format import format_named, format_of
 from decomp.files.targets import check_outputs, is_stream, reason
-from decomp.files.whole_file import write_whole
 from decomp.formats.foreign import advice
+from decomp.formats.table import FORMATS, WRITTEN, ModelFormat, listed
 from decomp.paths import path_of
 
 if TYPE_CHECKING:
     from decomp.csg.model import Model
     from decomp.csg.solid import Solid
-    from decomp.formats.source import Source
 
-Format = Literal["geo", "csg", "json"]
-"""Netgen, OpenSCAD, native."""
-
-FORMATS: tuple[Format, ...] = get_args(Format)
-SAVED = (".json",)
-"""Suffixes of files that models are written to."""
 MAX_BYTES = 64_000_000
 """Of a model file; read as JSON, it takes up to twenty times as much memory."""
-EXPECTED = "expected Netgen .geo (algebraic3d), OpenSCAD .csg or decomp .json"
+EXPECTED = f"expected {listed(keywords=True)}"
 
 
 def load(path: str | Path) -> Model:
@@ -44,27 +37,36 @@ def load(path: str | Path) -> Model:
     """
     file = path_of(path, "the model's file")
     data = _bytes(file)
-    suffix = file.suffix.lower().removeprefix(".")
-    form = next((known for known in FORMATS if known == suffix), None)
+    suffix = file.suffix.lower()
+    form = next((known for known in FORMATS if suffix in known.suffixes), None)
     text = _text(data, file, form)
     if not text.strip():
         raise ParseError(f"the file is empty; {EXPECTED}", file)
     # bytes of a file's name that are no UTF-8 stand for themselves in no text
     name = os.fsencode(file.stem).decode("utf-8", "replace")
-    return loads(text, form or _sniffed(text, file), name, file)
+    return loads(text, (form or _sniffed(text, file)).name, name, file)
 
 
-def loads(text: str, form: Format, name: str = "model", path: str | Path | None = None) -> Model:
+def loads(text: str, form: str, name: str = "model", path: str | Path | None = None) -> Model:
     """Read a model from text; a native model's own name goes before `name`.
 
     Args:
+        text: of a file.
+        form: the name of its format, one of `FORMATS`.
+        name: of the model.
         path: where the text came from, for error messages and for the model to remember.
+
+    Raises:
+        InputError: there is no such format.
+        ParseError: the text is wrong.
+        UnsupportedError: it uses what lies outside the five primitives and similarities.
     """
     from decomp.formats.source import Source
 
+    known = format_named(form, FORMATS, "models")
     source = Source(text.replace("\r\n", "\n").replace("\r", "\n"), path)
     try:
-        found = _read(source, form, name)
+        found: Model = known.loaded().read(source, name)
     except FileError:
         raise
     except InputError as error:  # of the model as a whole, such as two regions of one name
@@ -72,62 +74,42 @@ def loads(text: str, form: Format, name: str = "model", path: str | Path | None 
     return found if path is None else replace(found, source=Path(path).absolute())
 
 
-def _read(source: Source, form: Format, name: str) -> Model:
-    match form:
-        case "geo":
-            from decomp.formats import netgen
-
-            return netgen.read(source, name)
-        case "csg":
-            from decomp.formats import openscad
-
-            return openscad.read(source, name)
-        case "json":
-            from decomp.formats import native
-
-            return native.read(source, name)
-        case _:
-            raise InputError(f"unknown format {form!r}; known are {', '.join(FORMATS)}")
-
-
 def save(source: Model | Solid | dict[str, Solid], path: str | Path) -> None:
-    """Write a model, a solid or named solids as native JSON, at once or not at all.
+    """Write a model, a solid or named solids, at once or not at all.
 
     Args:
         source: to write.
-        path: ends in .json, and is not the file that the model was read from.
+        path: ends in a suffix of a format that is written, and is not the file that the model was
+            read from.
 
     Raises:
         InputError: the suffix is another, or a name cannot be written.
         FileError: the file cannot be written.
     """
     from decomp.csg.model import Model, model
-    from decomp.formats import native
+    from decomp.files.whole_file import write_whole
 
     path = path_of(path, "the file to write")
     made = source if isinstance(source, Model) else model(source)
-    check_saving(path, made.source)
-    text = native.dumps(made)
-    try:
-        data = text.encode()
-    except UnicodeEncodeError as error:
-        raise InputError(f"a name or option has no UTF-8 form: {error.object!r}") from None
+    form = check_saving(path, made.source)
+    data: bytes = form.loaded().encoded(made)
     write_whole(path, data)
 
 
-def check_saving(path: str | Path, source: str | Path | None) -> None:
-    """See whether a model can be saved.
+def check_saving(path: str | Path, source: str | Path | None) -> ModelFormat:
+    """The format that a model is to be saved in.
 
     Args:
         path: of the file to write.
         source: the file that the model is read from, if any.
 
     Raises:
-        InputError: its suffix is not .json.
+        InputError: its suffix is of none that is written.
         FileError: it cannot be written, or is the source.
     """
-    known_suffix(path, SAVED, "models")
+    form = format_of(path, WRITTEN, "models")
     check_outputs([path], [source])
+    return form
 
 
 def _bytes(file: Path) -> bytes:
@@ -147,15 +129,16 @@ def _bytes(file: Path) -> bytes:
         raise FileError(f"cannot be read: {reason(error)}", file) from None
 
 
-def _text(data: bytes, file: Path, form: Format | None) -> str:
-    """The file's text: UTF-8, and Latin-1 too for Netgen's files, which may have it in comments."""
+def _text(data: bytes, file: Path, form: ModelFormat | None) -> str:
+    """The file's text: UTF-8, or the old encoding of its format, which comments may be in."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise ParseError("the file is in UTF-16; save it as UTF-8", file, 1, 1)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        if form == "geo" or (form is None and re.search(rb"\balgebraic3d\b", data)):
-            return data.decode("latin-1")
+        known = form or _with_keyword(data)
+        if known is not None and known.old is not None:
+            return data.decode(known.old)
         if form is None and b"\0" in data:
             raise _no_model("this is no text that describes a model", file) from None
         before = data[: error.start]
@@ -169,14 +152,19 @@ def _text(data: bytes, file: Path, form: Format | None) -> str:
         ) from None
 
 
-def _sniffed(text: str, file: Path) -> Format:
+def _with_keyword(data: bytes) -> ModelFormat | None:
+    """The first format whose keyword is in a file."""
+    for form in FORMATS:
+        if form.keyword and re.search(rf"\b{form.keyword}\b".encode(), data):
+            return form
+    return None
+
+
+def _sniffed(text: str, file: Path) -> ModelFormat:
     """The format that the text's first words tell, comments passed over."""
-    if re.match(r"(?:\s|#[^\n]*+)*+algebraic3d\b", text):
-        return "geo"
-    if re.match(r"\s*+\{", text):
-        return "json"
-    if re.match(r"(?s:\s|//[^\n]*+|/\*.*?\*/)*+[%#*!\s]*+\w++\s*+\(", text):
-        return "csg"
+    for form in FORMATS:
+        if re.match(form.begins, text):
+            return form
     raise _no_model("the file's format is unknown", file)
 
 

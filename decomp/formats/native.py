@@ -28,13 +28,13 @@ from decomp.csg.solid import (
 from decomp.errors import InputError, ParseError
 from decomp.formats.json_items import Item, a_list, a_vector, a_whole_number, shown
 from decomp.formats.native_schema import FIXED, KNOWN, NODES, OPEN, PRIMITIVES, VERSION
-from decomp.formats.native_writing import dumps
+from decomp.formats.native_writing import dumps, encoded
 from decomp.formats.source import Source
 from decomp.magnitude import check_length
 from decomp.similarity import Similarity
 from decomp.vectors import Array, frozen
 
-__all__ = ["dumps", "read"]
+__all__ = ["dumps", "encoded", "read"]
 
 
 def read(source: Source, name: str = "model") -> Model:

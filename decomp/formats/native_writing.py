@@ -26,6 +26,18 @@ from decomp.formats.native_schema import FIXED, OPEN, PRIMITIVES, TYPE_OF, VERSI
 from decomp.similarity import Similarity
 
 
+def encoded(model: Model) -> bytes:
+    """The contents of a file.
+
+    Raises:
+        InputError: a solid is of an unknown class, or a name cannot be written.
+    """
+    try:
+        return dumps(model).encode()
+    except UnicodeEncodeError as error:
+        raise InputError(f"a name or option has no UTF-8 form: {error.object!r}") from None
+
+
 def dumps(model: Model) -> str:
     """Write a model as JSON text, one node a line.
 

@@ -1,4 +1,4 @@
-"""Tetrahedra that follow the complex within epsilon are made to follow the exact one.
+"""Tetrahedra that follow the complex within the tolerance are made to follow the exact one.
 
 Triangles between cells are told their patches, and nodes are moved onto what these lie on. Where a
 node has no room there a cut-off edge is put back, the node is merged with a neighbour, or the
@@ -60,6 +60,7 @@ def conformed(
     plan: Layout,
     elements: Elements,
     asked: Lengths,
+    mends: bool,
 ) -> Conformed:
     """Tag and move.
 
@@ -71,6 +72,7 @@ def conformed(
         plan: the complex.
         elements: of it.
         asked: lengths; smoothing leaves no edge longer than these allow, but those that are.
+        mends: whether tetrahedra are changed at nodes that have no room where they belong.
     """
     for last in range(ROUNDS - 1, -1, -1):
         faces = faces_of(tets)
@@ -79,7 +81,7 @@ def conformed(
         projector = Projector(points, tets, targets, elements, plan.complex.points)
         left = projector.settle()
         mended = None
-        if len(left) and last:
+        if mends and len(left) and last:
             at = projector.points
             if tagger.still_right(tagged, at, part, faces, left):
                 rows = np.searchsorted(targets.nodes, left)
@@ -121,8 +123,8 @@ def _mended(
 ) -> tuple[Array, Ints, Ints] | None:
     """Change tetrahedra at nodes that have no room where they belong; None if none could be.
 
-    Where TetWild has left a dent, a change can lead across it onto tetrahedra that are there: it is
-    not made.
+    Where a mesher has left a dent, a change can lead across it onto tetrahedra that are there: it
+    is not made.
     """
     near = _around(tets, left)
     around = points, tets[near], part[near], left

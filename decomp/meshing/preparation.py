@@ -1,4 +1,4 @@
-"""What TetWild is given: the complex, fine enough for an epsilon, and a field of sizes."""
+"""What a mesher is given: the complex, fine enough for a tolerance, and lengths of edges."""
 
 from __future__ import annotations
 
@@ -9,30 +9,29 @@ from typing import Literal
 
 from decomp.complex.many_elements import Elements
 from decomp.geometry import Geometry
-from decomp.meshing.backends.tetwild.child import Settings
-from decomp.meshing.backends.tetwild.soup import soup
+from decomp.meshing.backends.base import Task
 from decomp.meshing.repairs.shortening import Lengths, lengths_asked
 from decomp.meshing.sizing.chords import chords
 from decomp.meshing.sizing.expected import expected_tets, least_tets
-from decomp.meshing.sizing.features import fitting_epsilon, usual_epsilon
+from decomp.meshing.sizing.features import fitting_tolerance, usual_tolerance
 from decomp.meshing.sizing.field import sizing
 from decomp.meshing.sizing.memory import check_memory
-from decomp.meshing.sizing.size_field import SizeField
 from decomp.meshing.sizing.sizes import Wanted, region_sizes, wishes
 from decomp.meshing.sizing.wishes import Wishes
+from decomp.meshing.surface.beside import parting
 from decomp.meshing.surface.boundary_surface import boundary_surface
 from decomp.meshing.surface.cells import CellMap, cell_map
 from decomp.meshing.surface.layout import Layout, layout
 from decomp.meshing.surface.surface import MeshSurface, Surfaces
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array
 
 CHORD, COARSEST = 0.4, 0.65
-"""How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
+"""How far triangles are made to be off their surfaces, and may be, in parts of the tolerance."""
 CUSP = 2.0
-"""Faces that meet at less than this angle (degrees) make a cusp, whose tip no epsilon fits into.
+"""Faces that meet at less than this angle (degrees) make a cusp, whose tip no tolerance fits into.
 Only sheets, which end in it, need as small a one as there is."""
 SHORTEST = 7.0
-"""The shortest edges are at least so many epsilons long."""
+"""The shortest edges are at least so many tolerances long."""
 
 Cells = Literal["skeleton", "face", "none"]
 """Which cells a mesh has: the skeleton's, one for each face, or none."""
@@ -42,7 +41,7 @@ Progress = Callable[[str, float], None]
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """All that is known before TetWild runs.
+    """All that is known before a mesher runs.
 
     Args:
         geometry: of the model.
@@ -50,14 +49,12 @@ class Prepared:
         known: its cells.
         plan: which patches part them.
         elements: of the complex.
-        triangles: (n, 3) points and (m, 3) triangles for TetWild.
-        settings: for it.
-        field: sizes for it.
+        task: for the mesher.
         expected: how many tetrahedra there will be, about.
         sizes: (r,) the largest length in each region.
         asked: the largest lengths in cells and on patches.
         wish: all lengths.
-        chords: as long as edges on curved faces may be for epsilon's sake.
+        chords: as long as edges on curved faces may be for the tolerance's sake.
     """
 
     geometry: Geometry
@@ -65,9 +62,7 @@ class Prepared:
     known: CellMap
     plan: Layout
     elements: Elements
-    triangles: tuple[Array, Ints]
-    settings: Settings
-    field: SizeField | None
+    task: Task
     expected: float
     sizes: Array
     asked: Lengths
@@ -78,7 +73,7 @@ class Prepared:
 def prepared(
     geometry: Geometry, wanted: Wanted, cells: Cells, surfaces: Surfaces, tell: Progress
 ) -> Prepared:
-    """Compute the skeleton, unless there are to be no cells, and choose sizes and epsilon.
+    """Compute the skeleton, unless there are to be no cells, and choose sizes and the tolerance.
 
     Args:
         geometry: of the model.
@@ -95,18 +90,17 @@ def prepared(
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
     make = _maker(geometry, cells, sizes, surfaces, tell)
     longest = float(sizes.min())
-    epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
-    surface = make(CHORD * epsilon)
-    epsilon = fitting_epsilon(geometry, surface, epsilon, longest)
-    surface = _fine_enough(surface, epsilon, make)
+    tolerance = usual_tolerance(geometry, longest, CUSP if cells == "none" else 0.0)
+    surface = make(CHORD * tolerance)
+    tolerance = fitting_tolerance(geometry, surface, tolerance, longest)
+    surface = _fine_enough(surface, tolerance, make)
     tell("sizing", 1.0)
     wish = wishes(geometry, surface, wanted)
-    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
-    surface = _fine_enough(surface, epsilon, make)
+    tolerance = min(tolerance, float(wish.lengths.min()) / SHORTEST)
+    surface = _fine_enough(surface, tolerance, make)
     expected = expected_tets(geometry, wish, sizes)
     check_memory(expected)
     length, field = sizing(geometry, wish, sizes)
-    settings = Settings(length, epsilon)
     known = cell_map(surface)
     plan = layout(surface, known)
     return Prepared(
@@ -115,14 +109,12 @@ def prepared(
         known,
         plan,
         Elements(plan.complex),
-        soup(plan, wish, settings),
-        settings,
-        field,
+        Task(*parting(plan, known), length, wish.at, field, tolerance),
         expected,
         sizes,
         lengths_asked(geometry, known, plan, sizes, wanted),
         wish,
-        chords(surface, sizes, CHORD * epsilon),
+        chords(surface, sizes, CHORD * tolerance),
     )
 
 
@@ -137,9 +129,9 @@ def _maker(
 
 
 def _fine_enough(
-    surface: MeshSurface, epsilon: float, make: Callable[[float], MeshSurface]
+    surface: MeshSurface, tolerance: float, make: Callable[[float], MeshSurface]
 ) -> MeshSurface:
-    """The surface, or a finer one if it is too coarse for an epsilon."""
-    if surface.tolerance <= COARSEST * epsilon:
+    """The surface, or a finer one if it is too coarse for a tolerance."""
+    if surface.tolerance <= COARSEST * tolerance:
         return surface
-    return make(CHORD * epsilon)
+    return make(CHORD * tolerance)

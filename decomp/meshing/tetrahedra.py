@@ -1,4 +1,4 @@
-"""Tetrahedra that follow the exact complex: TetWild's, told their cells and put in place."""
+"""Tetrahedra that follow the exact complex: a mesher's, told their cells and put in place."""
 
 from __future__ import annotations
 
@@ -8,12 +8,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from decomp.meshes.faces import faces_of
-from decomp.meshing.backends.tetwild.child import MeshingError, Settings, TimeLimit, tetrahedralized
+from decomp.meshing.backends.base import (
+    Mesher,
+    MeshingError,
+    Repair,
+    Task,
+    Tetrahedra,
+    TimeLimit,
+)
 from decomp.meshing.conforming import Conformed, conformed
 from decomp.meshing.exact.opening import Opener
 from decomp.meshing.exact.strayed import strayed
 from decomp.meshing.exact.targets import Finder
-from decomp.meshing.naming.classify import classified
+from decomp.meshing.naming.classify import classified, parts_of_cells
 from decomp.meshing.naming.tagging import Tagger
 from decomp.meshing.preparation import Prepared, Progress
 from decomp.meshing.repairs.shortening import LONGEST, shortened, tightened
@@ -21,8 +28,8 @@ from decomp.meshing.repairs.splitting import freed
 from decomp.vectors import Array, Ints
 
 FAR, AGAIN = 3.0, 0.9
-"""Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
-triangle. It does so by chance, and is tried once more, with this part of epsilon."""
+"""Nodes farther off their faces than so many tolerances tell that triangles were left out. A mesher
+that does so by chance is tried once more, with this part of the tolerance."""
 
 CUTS = 3
 """How often edges that are too long are cut: nodes put in place can draw them out again."""
@@ -43,57 +50,68 @@ class Filled:
     far: Ints
 
 
-def filled(given: Prepared, limit: TimeLimit, tell: Progress) -> Filled:
-    """Run TetWild, a second time if it leaves out triangles, and keep the better mesh.
+def filled(given: Prepared, mesher: Mesher, limit: TimeLimit, tell: Progress) -> Filled:
+    """Run a mesher, a second time if it leaves out triangles by chance, and keep the better mesh.
 
     Args:
         given: what it runs on.
+        mesher: that runs.
         limit: of each run.
         tell: of the progress.
 
     Raises:
         MeshingError: the first run fails.
     """
-    tell("TetWild", 0.0)
-    best = _run(given, given.settings, limit, tell)
-    if len(best.far):
-        tell("TetWild again", 0.0)
-        finer = replace(given.settings, epsilon=AGAIN * given.settings.epsilon)
+    tell(mesher.title, 0.0)
+    best = _run(given, mesher, given.task, limit, tell)
+    if len(best.far) and Repair.CHANCE in mesher.repairs:
+        tell(f"{mesher.title} again", 0.0)
+        finer = replace(given.task, tolerance=AGAIN * given.task.tolerance)
         with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
-            again = _run(given, finer, limit, tell)
+            again = _run(given, mesher, finer, limit, tell)
             best = min(best, again, key=lambda found: len(found.far))
     return best
 
 
-def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) -> Filled:
-    """Run TetWild once."""
+def _run(given: Prepared, mesher: Mesher, task: Task, limit: TimeLimit, tell: Progress) -> Filled:
+    """Run a mesher once."""
     geometry, known, plan = given.geometry, given.known, given.plan
-    raw = tetrahedralized(
-        *given.triangles, settings, given.field, limit, lambda note: tell(note, 0.2)
-    )
+    raw = mesher.run(task, limit, lambda note: tell(note, 0.2))
     tell("naming", 0.7)
-    epsilon = raw.settings.epsilon
-    part = classified(geometry, known, raw.points, raw.tets, epsilon)
+    tolerance = raw.tolerance
+    part = _parts(given, raw)
     points, tets = _used(raw.points, raw.tets[part >= 0])
-    opener = Opener(geometry, given.surface, known, plan, given.elements, epsilon)
-    points, tets, part = opener.opened(points, tets, part[part >= 0])
+    part = part[part >= 0]
+    if Repair.LAYERS in mesher.repairs:
+        opener = Opener(geometry, given.surface, known, plan, given.elements, tolerance)
+        points, tets, part = opener.opened(points, tets, part)
     points, tets, part = freed(points, tets, part, known.region[known.cell])
     tell("projecting", 0.8)
-    tagger = Tagger(geometry, given.surface, known, plan, epsilon)
-    finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
+    tagger = Tagger(geometry, given.surface, known, plan, tolerance)
+    finder = Finder(geometry, given.surface, known, plan, given.elements, tolerance)
     tagged = tagger.tagged(points, part, faces_of(tets))
+    mends = Repair.DENTS in mesher.repairs
     aimed = given.asked
     for _ in range(CUTS):
         points, tets, part = shortened(points, tets, part, tagged, aimed)
-        fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
+        fit = conformed(
+            points, tets, part, tagger, finder, plan, given.elements, given.asked, mends
+        )
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
         longest = given.asked.edges(points, tets, part, tagged).excess(points).max()
         tighter = tightened(points, tets, part, tagged, given.asked, aimed)
         if longest <= LONGEST and tighter is None:
             break
         aimed = tighter or aimed
-    far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * epsilon)
+    far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * tolerance)
     return Filled(fit, finder, far)
+
+
+def _parts(given: Prepared, made: Tetrahedra) -> Ints:
+    """The part (m,) of a cell that each tetrahedron is in, OUTSIDE for none."""
+    if made.cells is not None:
+        return parts_of_cells(given.geometry, given.known, made.points, made.tets, made.cells)
+    return classified(given.geometry, given.known, made.points, made.tets, made.tolerance)
 
 
 def _used(points: Array, cells: Ints) -> tuple[Array, Ints]:

@@ -1,4 +1,4 @@
-"""Mid-surfaces to files. The suffix of a file's name tells its format."""
+"""Mid-surfaces to files, in the formats of `table.py`."""
 
 from __future__ import annotations
 
@@ -7,22 +7,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from decomp.files.suffixes import known_suffix
+from decomp.files.format import Format, format_of, suffixes
+from decomp.midsurfaces.table import FORMATS
 from decomp.skeletons.files.elements import KINDS, Elements
 
 if TYPE_CHECKING:
     from decomp.midsurfaces.facing import MidSurface
 
-SUFFIXES = (".vtu", ".ply", ".obj", ".stl")
+SUFFIXES = suffixes(FORMATS)
 
 
-def suffix_of(path: str | Path) -> str:
-    """The suffix of a file that `write` can write.
+def form_of(path: str | Path) -> Format:
+    """The format of a file that `write` can write.
 
     Raises:
-        InputError: it is none of `SUFFIXES`.
+        InputError: its suffix is none of `SUFFIXES`.
     """
-    return known_suffix(path, SUFFIXES, "mid-surfaces")
+    return format_of(path, FORMATS, "mid-surfaces")
 
 
 def write(surface: MidSurface, path: str | Path) -> None:
@@ -38,21 +39,12 @@ def write(surface: MidSurface, path: str | Path) -> None:
     """
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
-    from decomp.skeletons.files import obj, ply, stl, vtu
 
-    suffix = suffix_of(path)
+    form = form_of(path)
     check_outputs([path], [surface.source])
-    if suffix == ".stl":
-        write_whole(path, stl.surface(surface.points, surface.triangles))
-        return
-    parts = _elements(surface)
-    thickness = {"thickness": surface.thickness}
-    if suffix == ".obj":
-        write_whole(path, obj.encoded(parts))
-    elif suffix == ".ply":
-        write_whole(path, ply.encoded(parts, thickness))
-    else:
-        write_whole(path, vtu.encoded(parts, thickness, {"facing": surface.angle}))
+    values = {"thickness": surface.thickness}, {"facing": surface.angle}
+    contents: bytes = form.loaded().encoded(_elements(surface), *values)
+    write_whole(path, contents)
 
 
 def _elements(surface: MidSurface) -> Elements:

@@ -1,7 +1,7 @@
 """Tetrahedra that fill all regions and conform to their exact boundaries.
 
-TetWild fills the boundary alone, coarsely; its nodes are then moved onto the exact faces, edges and
-vertices as those of any mesh are.
+The mesher fills the boundary alone, coarsely; its nodes are then moved onto the exact faces, edges
+and vertices as those of any mesh are.
 """
 
 from __future__ import annotations
@@ -16,15 +16,16 @@ from decomp.complex.many_elements import Elements
 from decomp.complex.refining.refine import refined
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.meshing.backends.tetwild.child import Settings, TimeLimit
-from decomp.meshing.backends.tetwild.soup import soup
+from decomp.meshing.backends.base import Task, TimeLimit
+from decomp.meshing.backends.table import mesher
 from decomp.meshing.exact.strayed import strayed
 from decomp.meshing.preparation import Prepared
 from decomp.meshing.repairs.shortening import lengths_asked
 from decomp.meshing.sizing.chords import chords
-from decomp.meshing.sizing.features import usual_epsilon
+from decomp.meshing.sizing.features import usual_tolerance
 from decomp.meshing.sizing.sizes import Wanted
 from decomp.meshing.sizing.wishes import UNKNOWN, joined
+from decomp.meshing.surface.beside import parting
 from decomp.meshing.surface.cells import cell_map
 from decomp.meshing.surface.layout import Layout, layout
 from decomp.meshing.surface.surface import MeshSurface, RegionSurface
@@ -35,7 +36,7 @@ from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints
 
 CHORD = 0.4
-"""How far the triangles for TetWild may be off the boundary, in parts of its epsilon."""
+"""How far the triangles to be filled may be off the boundary, in parts of its tolerance."""
 EXACT = 1e-12
 """Nodes are on their faces to this part of the model's diagonal."""
 
@@ -67,25 +68,26 @@ class Interior:
 
 
 def interior(
-    geometry: Geometry, size: float, epsilon: float, limit: TimeLimit, tell: Callable[[str], None]
+    geometry: Geometry, size: float, tolerance: float, limit: TimeLimit, tell: Callable[[str], None]
 ) -> Interior:
     """Fill a model.
 
     Args:
         geometry: of the model.
         size: the longest edges wanted, in model units.
-        epsilon: how far TetWild may leave the boundary, in model units; less where edges are short
+        tolerance: how far the mesher may leave the boundary, in model units; less where edges are
+        short
             or sharp.
-        limit: of TetWild.
+        limit: of the mesher.
         tell: is told what is being done.
 
     Raises:
         GeometryError: nodes cannot be moved onto the boundary.
-        MeshingError: TetWild fails.
+        MeshingError: the mesher fails.
     """
-    epsilon = min(epsilon, usual_epsilon(geometry, size))
-    surface = boundary_mesh(geometry, CHORD * epsilon)
-    mesh, _ = refined(surface.complex, CHORD * epsilon)
+    tolerance = min(tolerance, usual_tolerance(geometry, size))
+    surface = boundary_mesh(geometry, CHORD * tolerance)
+    mesh, _ = refined(surface.complex, CHORD * tolerance)
     regions = []
     for number, boundary in enumerate(geometry.regions):
         sides = surface.face_sides(number, len(boundary.faces))
@@ -94,11 +96,10 @@ def interior(
         content = volume(mesh, every, boundary.bounds.mean(axis=0))
         whole = Cell(f"{boundary.name}/all", faces, every, content)
         regions.append(RegionSurface(boundary.name, boundary, sides, {}, (whole,)))
-    given = MeshSurface(geometry.sites, mesh, CHORD * epsilon, tuple(regions))
+    given = MeshSurface(geometry.sites, mesh, CHORD * tolerance, tuple(regions))
     known = cell_map(given)
     plan = layout(given, known)
     elements = Elements(plan.complex)
-    settings = Settings(size, epsilon)
     wish = joined([(mesh.points, np.full(len(mesh.points), size), UNKNOWN)])
     sizes = np.full(len(geometry.regions), size)
     prepared = Prepared(
@@ -107,16 +108,14 @@ def interior(
         known,
         plan,
         elements,
-        soup(plan, wish, settings),
-        settings,
-        None,
+        Task(*parting(plan, known), size, wish.at, None, tolerance),
         0.0,
         sizes,
         lengths_asked(geometry, known, plan, sizes, Wanted()),
         wish,
-        chords(given, sizes, CHORD * epsilon),
+        chords(given, sizes, CHORD * tolerance),
     )
-    fit = filled(prepared, limit, lambda what, done: tell(what)).fit
+    fit = filled(prepared, mesher(), limit, lambda what, done: tell(what)).fit
     left = strayed(fit.points, fit.tagged, plan, elements, TOLERANCE * geometry.diagonal)
     if len(left):
         raise GeometryError(

@@ -24,7 +24,7 @@ from decomp.complex.model import Complex
 from decomp.complex.refining.refine import refined
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.meshing.backends.tetwild.child import MeshingError, TimeLimit
+from decomp.meshing.backends.base import MeshingError, TimeLimit
 from decomp.sampled.beside import TetrahedraBoundary, with_traced
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.drawing import smoothly_drawn
@@ -45,7 +45,7 @@ FLOORS = (12.0, 18.0)
 where the walls are close to the boundary."""
 COARSE = 2.0
 """The tetrahedra that all begins with are so many times as long."""
-EPSILON = 0.02
+AWAY = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
 FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
@@ -55,7 +55,7 @@ volumes, are accepted and stated."""
 SHARE = 0.7
 """The part of the tolerance that the boundary's edges may use up."""
 FILLING = 30.0
-"""Seconds that TetWild may compute in each try."""
+"""Seconds that the mesher may compute in each try."""
 
 Progress = Callable[[str, float], None]
 Curves = Mapping[int, RegionCurves]
@@ -153,7 +153,7 @@ class _Attempt:
         """
         geometry = self._geometry
         size = COARSE * floor
-        given = interior(geometry, size, EPSILON * size, TimeLimit.of_work(FILLING), self._tell)
+        given = interior(geometry, size, AWAY * size, TimeLimit.of_work(FILLING), self._tell)
         owner = site_owners(geometry.sites, list(geometry.regions))
         tools = [
             tools_of(geometry, number, owner, number not in self._curves)

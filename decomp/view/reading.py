@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING
 
 from decomp.drawing.scene import Scene
 from decomp.errors import InputError
+from decomp.files.format import suffixes
+from decomp.formats.table import FORMATS
+from decomp.meshes.files.table import READ
 from decomp.places import FAR
 from decomp.vectors import norm
 
 if TYPE_CHECKING:
     from decomp.skeletons.model import Skeleton
 
-MODELS, MESHES, SKELETONS = (".geo", ".csg", ".json"), (".msh",), (".vtu",)
+MODELS, MESHES, SKELETONS = suffixes(FORMATS), suffixes(READ), (".vtu",)
 
 
 def scene_of(path: Path, skeleton: Skeleton | None = None) -> Scene:

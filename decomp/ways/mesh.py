@@ -1,7 +1,7 @@
 """From a model to a tetrahedral mesh with a name on every cell, face, interface and sheet.
 
 1. The exact skeleton, as one complex of triangles; without cells the exact boundary.
-2. fTetWild fills the box around it with tetrahedra that conform to it.
+2. A mesher fills it with tetrahedra that conform to it.
 3. Each tetrahedron is told its cell, each triangle between cells its patch, by exact queries.
 4. Nodes are moved onto the exact surfaces, curves and points that they belong to.
 """
@@ -9,7 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,8 @@ from decomp.meshes.grouping import Chosen, Volumes
 from decomp.meshes.model import FoundBy, TetMesh, regrouped
 from decomp.meshes.moved import moved_mesh
 from decomp.meshes.parts import Parts
-from decomp.meshing.backends.tetwild.child import TimeLimit
+from decomp.meshing.backends.base import TimeLimit
+from decomp.meshing.backends.table import mesher
 from decomp.meshing.exact.quadratic import quadratic
 from decomp.meshing.far.nearer import Nearer, brought_near
 from decomp.meshing.far.sweeping import far_groups, swept
@@ -45,13 +46,14 @@ from decomp.meshing.surface.cells import OUTSIDE
 from decomp.meshing.tetrahedra import Filled, filled
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Ints, positive
+from decomp.ways.options import MeshOptions
 from decomp.ways.skeleton import Method, checked_method
 from decomp.ways.surfaces import surfaces_by
 
 LIMIT, LIMIT_PER_TET = 600.0, 5e-3
-"""Seconds that TetWild may compute, in all and for each expected tetrahedron."""
+"""Seconds that a mesher may compute, in all and for each expected tetrahedron."""
 PREPARED, FILLED = 0.35, 0.95
-"""Which part of the whole is behind when TetWild begins, and when its mesh is in place."""
+"""Which part of the whole is behind when the mesher begins, and when its mesh is in place."""
 
 
 def mesh(
@@ -103,7 +105,7 @@ def mesh(
             nodes, named by the faces that meet there: `part/base.zmax&hole.side`.
         fields: values wanted on the mesh: `distance`, `thickness`, `nearest`, `cell`, `region`
             (`decomp.meshes.fields`).
-        timeout: seconds that TetWild may take; by default ten minutes of computing, or 5 ms for
+        timeout: seconds that the mesher may take; by default ten minutes of computing, or 5 ms for
             each expected tetrahedron where that is more, and four times as long by the clock.
         progress: told what is being done, and which part of the whole (0 to 1) is behind.
         method: how the skeleton is found, as of `decomp.skeleton`.
@@ -113,30 +115,55 @@ def mesh(
             into memory.
         FileError: the file cannot be read.
         GeometryError: the solid or its skeleton cannot be computed.
-        MeshingError: TetWild fails.
+        MeshingError: the mesher, TetWild, fails.
     """
-    order = one_of(order, (1, 2), "order")
-    cells = one_of(cells, ("skeleton", "face", "none"), "cells")
-    chosen = Chosen(volumes, sheets, {} if groups is None else groups, split_faces, edges)
+    options = MeshOptions(
+        size=size,
+        sizes=sizes,
+        size_at=size_at,
+        size_field=size_field,
+        layers=layers,
+        elements_per_circle=elements_per_circle,
+        order=order,
+        cells=cells,
+        volumes=volumes,
+        sheets=sheets,
+        groups=groups,
+        split_faces=split_faces,
+        edges=edges,
+        fields=fields,
+        timeout=timeout,
+        method=method,
+    )
+    return meshed(source, options, progress)
+
+
+def meshed(
+    source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
+    options: MeshOptions,
+    progress: Progress | None = None,
+) -> TetMesh:
+    """Mesh a model with options as one value; all else is as of `mesh`."""
+    options = _checked(options)
+    groups = {} if options.groups is None else options.groups
+    chosen = Chosen(options.volumes, options.sheets, groups, options.split_faces, options.edges)
     called(progress, "progress")
-    method = checked_method(method)
-    seconds = None if timeout is None else positive(timeout, "timeout")
-    asked = checked_fields(fields, with_cells=cells != "none")
-    named, places, everywhere = checked_sizes(sizes), places_of(size_at), field_of(size_field)
-    wanted = Wanted(size, layers, elements_per_circle)
+    asked = checked_fields(options.fields, with_cells=options.with_cells)
+    named = checked_sizes(options.sizes)
+    places, everywhere = places_of(options.size_at), field_of(options.size_field)
+    wanted = Wanted(options.size, options.layers, options.elements_per_circle)
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     geometry, of_regions = sized(geometry, named)
     offset = geometry.offset
     wanted = replace(
         wanted, of_regions=of_regions, places=places, everywhere=everywhere, offset=offset
     )
-    check_chosen(geometry, chosen, with_cells=cells != "none")
-    options = _Options(order, cells, method, seconds)
+    check_chosen(geometry, chosen, with_cells=options.with_cells)
     tell = progress or (lambda what, done: None)
     with geometry.frame(), located(geometry):
         local = geometry.local
-        can_be_near = order == 1 and cells == "none" and not places and everywhere is None
-        near = brought_near(local, wanted) if can_be_near else None
+        can_be_near = not (options.order == 2 or options.with_cells or places)
+        near = brought_near(local, wanted) if can_be_near and everywhere is None else None
         if near is None:
             made, parts = _meshed(local, wanted, options, tell)
         else:
@@ -146,25 +173,27 @@ def mesh(
     return moved_mesh(regrouped(made, chosen), geometry.offset)
 
 
-@dataclass(frozen=True)
-class _Options:
-    """What `mesh` is asked for beside lengths and groups; all have been checked."""
-
-    order: int
-    cells: Cells
-    method: Method
-    seconds: float | None
+def _checked(options: MeshOptions) -> MeshOptions:
+    """The options, choices and seconds among them checked."""
+    seconds = options.timeout
+    return replace(
+        options,
+        order=one_of(options.order, (1, 2), "order"),
+        cells=one_of(options.cells, ("skeleton", "face", "none"), "cells"),
+        method=checked_method(options.method),
+        timeout=None if seconds is None else positive(seconds, "timeout"),
+    )
 
 
 def _meshed(
-    geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress
+    geometry: Geometry, wanted: Wanted, options: MeshOptions, tell: Progress
 ) -> tuple[TetMesh, Parts]:
     """A mesh whose groups are its parts, and these."""
     given = _prepared(geometry, wanted, options, _between(tell, 0.0, PREPARED))
     work = max(LIMIT, LIMIT_PER_TET * given.expected)
-    seconds = options.seconds
+    seconds = options.timeout
     limit = TimeLimit(seconds) if seconds is not None else TimeLimit.of_work(work)
-    made = filled(given, limit, _between(tell, PREPARED, FILLED))
+    made = filled(given, mesher(), limit, _between(tell, PREPARED, FILLED))
     if options.order == 2:
         tell("curving", FILLED)
     points, tets, triangles = _elements(given, made, options.order)
@@ -174,7 +203,7 @@ def _meshed(
     )
     triangles, tags = triangles[tags > 0], tags[tags > 0]
     cell, region = given.known.cell_of(part) + 1, given.known.region_of(part) + 1
-    has_cells = options.cells != "none"
+    has_cells = options.with_cells
     parts = Parts(
         tuple(region_parts(geometry, given.sizes)),
         tuple(each.options.get("material") for each in geometry.model.regions),
@@ -204,7 +233,7 @@ def _meshed(
 
 
 def _meshed_near(
-    geometry: Geometry, near: Nearer, options: _Options, tell: Progress
+    geometry: Geometry, near: Nearer, options: MeshOptions, tell: Progress
 ) -> tuple[TetMesh, Parts]:
     """Mesh a model with its end brought near, and put back what is before it."""
     made, parts = _meshed(near.geometry.local, near.wanted, options, tell)
@@ -221,12 +250,12 @@ def _meshed_near(
     )
 
 
-def _prepared(geometry: Geometry, wanted: Wanted, options: _Options, tell: Progress) -> Prepared:
-    """What TetWild is given; where there is no skeleton for it, how to do without is said."""
+def _prepared(geometry: Geometry, wanted: Wanted, options: MeshOptions, tell: Progress) -> Prepared:
+    """What a mesher is given; where there is no skeleton for it, how to do without is said."""
     try:
         return prepared(geometry, wanted, options.cells, surfaces_by(options.method), tell)
     except GeometryError as error:
-        if options.cells == "none":
+        if not options.with_cells:
             raise
         raise error.advised("'--cells none' makes a mesh without cells") from error
 

@@ -85,3 +85,19 @@ def test_a_file_of_another_program(tmp_path: Path, capsys: pytest.CaptureFixture
     message = capsys.readouterr().err
     assert "part.step: this is no text that describes a model" in message
     assert ".geo" in message
+
+
+def test_what_adding_takes_is_there() -> None:
+    """The files that the page leads to, and the names in them."""
+    page = (ROOT / "docs/adding.md").read_text()
+    paths = set(re.findall(r"`((?:decomp|tests|docs|benchmarks)/[\w./]+)`", page))
+    assert len(paths) > 40
+    assert [path for path in sorted(paths) if not (ROOT / path).exists()] == []
+    for name, path in (
+        ("FORMATS", "decomp/formats/table.py"),
+        ("FORMATS", "decomp/meshes/files/table.py"),
+        ("MESHERS", "decomp/meshing/backends/table.py"),
+        ("COMMANDS", "decomp/cli/main.py"),
+    ):
+        assert re.search(rf"`{name}`[^`]*`{path}`", page), path
+        assert f"\n{name} = " in (ROOT / path).read_text()

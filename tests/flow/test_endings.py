@@ -128,8 +128,8 @@ def test_a_second_signal_ends_at_once(place: Path) -> None:
     program = """
 import os, signal, sys
 from decomp.cli.ending import endings
-from decomp.meshing.backends.tetwild.workplace import workplace
-with endings(), workplace():
+from decomp.processes.workplace import workplace
+with endings(), workplace("tetwild"):
     try:
         os.kill(os.getpid(), signal.SIGTERM)
     finally:

@@ -163,8 +163,8 @@ def test_utf_16(tmp_path: Path, name: str, codec: str) -> None:
 def test_unknown_format(tmp_path: Path) -> None:
     with pytest.raises(ParseError, match="format is unknown; expected Netgen"):
         load(write(tmp_path, "x.stl", "solid cube\nfacet normal 0 0 1\n"))
-    with pytest.raises(InputError, match="unknown format 'stl'"):
-        loads("", "stl")  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="'stl' is no format for models; use geo, csg"):
+        loads("", "stl")
 
 
 def test_path_is_in_the_error(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ import pytest
 
 import decomp
 from decomp.csg.solid import Solid
-from decomp.meshing.sizing.features import fitting_epsilon, least_thickness, thickness
+from decomp.meshing.sizing.features import fitting_tolerance, least_thickness, thickness
 from decomp.meshing.sizing.sizes import Wanted, region_sizes, wishes
 from decomp.meshing.surface.boundary_surface import boundary_surface
 from decomp.meshing.surface.surface import MeshSurface, SurfaceMaker
@@ -94,7 +94,7 @@ def test_layers_count_across_walls() -> None:
 
 def test_epsilon_fits_walls_and_gaps() -> None:
     geometry, surface = surface_of(SOLIDS["thin wall"].make())
-    assert fitting_epsilon(geometry, surface, 0.05, 0.3) <= 0.15 * 0.01 * (1 + 1e-9)
+    assert fitting_tolerance(geometry, surface, 0.05, 0.3) <= 0.15 * 0.01 * (1 + 1e-9)
     slit = decomp.Block((0, 0, 0), (4, 4, 4)) - decomp.Block((2, -1, 1), (0.04, 6, 5))
-    assert fitting_epsilon(*surface_of(slit), 0.05, 0.3) < 0.02
-    assert fitting_epsilon(*surface_of(SOLIDS["block"].make()), 0.01, 0.3) == 0.01
+    assert fitting_tolerance(*surface_of(slit), 0.05, 0.3) < 0.02
+    assert fitting_tolerance(*surface_of(SOLIDS["block"].make()), 0.01, 0.3) == 0.01

@@ -15,14 +15,10 @@ import pytest
 
 from decomp.errors import DecompError, GeometryError, InputError
 from decomp.meshes.faces import faces_of, volumes
+from decomp.meshing.backends.base import MeshingError, TimeLimit
 from decomp.meshing.backends.tetwild import child
-from decomp.meshing.backends.tetwild.child import (
-    MeshingError,
-    Settings,
-    SizeField,
-    TimeLimit,
-    tetrahedralized,
-)
+from decomp.meshing.backends.tetwild.child import Settings, tetrahedralized
+from decomp.meshing.sizing.size_field import SizeField
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=np.float64)
 CUBE = np.array(

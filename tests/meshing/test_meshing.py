@@ -16,10 +16,11 @@ from decomp.meshes.faces import faces_of, least_dihedral
 from decomp.meshes.model import GroupKind, TetMesh
 from decomp.meshes.quality import inverted, volumes
 from decomp.meshes.report import report
-from decomp.meshing.backends.tetwild.child import Settings, Tetrahedra, tetrahedralized
+from decomp.meshing.backends.base import Task, Tetrahedra
+from decomp.meshing.backends.table import mesher
 from decomp.meshing.repairs.shortening import LONGEST
 from decomp.meshing.repairs.splitting import held
-from decomp.vectors import Array, Ints
+from tests.meshing.meshers import put_in_place
 from tests.meshing.meshes import MODELS, geometry, meshed
 from tests.solids import SOLIDS
 
@@ -282,18 +283,19 @@ def test_tetwild_is_run_again_where_it_left_out_triangles(
     times: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A dent in what it returns: the mesh is made of what it returns next, if that is sound."""
-    asked = []
+    asked: list[float] = []
+    tetwild = mesher()
 
-    def dented(points: Array, triangles: Ints, settings: Settings, *rest: Any) -> Tetrahedra:
-        made = tetrahedralized(points, triangles, settings, *rest)
-        asked.append(settings.epsilon)
+    def dented(task: Task, *rest: Any) -> Tetrahedra:
+        made = tetwild.run(task, *rest)
+        asked.append(task.tolerance)
         if len(asked) > times:
             return made
         centre = made.points[made.tets].mean(axis=1)
         inside = np.linalg.norm(centre - [2, 1.5, 0.2], axis=1) > 0.5
         return replace(made, tets=made.tets[inside])
 
-    monkeypatch.setattr("decomp.meshing.tetrahedra.tetrahedralized", dented)
+    put_in_place(replace(tetwild, run=dented), monkeypatch)
     solid = decomp.Block((0, 0, 0), (4, 3, 2), name="block")
     mesh = decomp.mesh(solid)
     assert len(asked) == 2

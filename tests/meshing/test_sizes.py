@@ -11,7 +11,7 @@ import decomp
 from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.meshing.sizing.expected import expected_tets
-from decomp.meshing.sizing.features import fitting_epsilon, least_thickness, usual_epsilon
+from decomp.meshing.sizing.features import fitting_tolerance, least_thickness, usual_tolerance
 from decomp.meshing.sizing.field import STEEP, WIDTH, is_uniform, octree_corners, sizing
 from decomp.meshing.sizing.sizes import Wanted, curvatures, region_sizes, wishes
 from decomp.meshing.sizing.wishes import SLOPE, UNKNOWN, joined
@@ -183,17 +183,17 @@ def test_epsilon_is_taken_from_the_smallest_object() -> None:
     sizes = region_sizes(geometry, Wanted())
     assert sizes[0] < 0.5
     assert sizes[1] > 10
-    assert usual_epsilon(geometry, float(sizes.min())) < 0.02
+    assert usual_tolerance(geometry, float(sizes.min())) < 0.02
 
 
 def test_epsilon_fits_walls_and_gaps() -> None:
     geometry, surface = surface_of(SOLIDS["thin wall"].make())
-    assert fitting_epsilon(geometry, surface, 0.05, 0.3) <= 0.15 * 0.01 * (1 + 1e-9)
+    assert fitting_tolerance(geometry, surface, 0.05, 0.3) <= 0.15 * 0.01 * (1 + 1e-9)
     slit = decomp.Block((0, 0, 0), (4, 4, 4)) - decomp.Block((2, -1, 1), (0.04, 6, 5))
     geometry, surface = surface_of(slit)
-    assert fitting_epsilon(geometry, surface, 0.05, 0.3) < 0.02
+    assert fitting_tolerance(geometry, surface, 0.05, 0.3) < 0.02
     geometry, surface = surface_of(SOLIDS["block"].make())
-    assert fitting_epsilon(geometry, surface, 0.01, 0.3) == 0.01
+    assert fitting_tolerance(geometry, surface, 0.01, 0.3) == 0.01
 
 
 @pytest.mark.parametrize("between", [0.3, 0.01, 1e-3])

@@ -1,53 +1,57 @@
-"""Tetrahedral meshes to files. The suffix of a file's name tells its format.
+"""Tetrahedral meshes to and from files, in the formats of `table.py`.
 
-The writers are loaded when they are first used.
+The suffix of a file's name tells its format. Writers and readers are loaded when they are first
+used.
 """
 
 from __future__ import annotations
 
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from decomp.errors import InputError
-from decomp.files.suffixes import known_suffix
+from decomp.files.format import format_of, suffixes
+from decomp.meshes.files.table import FORMATS, READ, MeshFormat
 
 if TYPE_CHECKING:
+    from decomp.meshes.files.msh_reader import ReadMesh
     from decomp.meshes.model import TetMesh
 
-_WRITERS = {
-    ".msh": "decomp.meshes.files.msh22",
-    ".vtu": "decomp.meshes.files.vtu",
-    ".xdmf": "decomp.meshes.files.xdmf",
-    ".inp": "decomp.meshes.files.inp",
-    ".mesh": "decomp.meshes.files.medit",
-    ".png": "decomp.drawing.mesh_picture",
-}
-"""Modules with a function `encoded`. What draws pictures reads meshes: it is above this package."""
-SUFFIXES = tuple(_WRITERS)
-VERSIONS = ("4.1", "2.2")
+SUFFIXES = suffixes(FORMATS)
 
 
-def suffix_of(path: str | Path) -> str:
-    """The suffix of a file that `write` can write.
+def form_of(path: str | Path) -> MeshFormat:
+    """The format of a file that `write` can write.
 
     Raises:
-        InputError: it is none of `SUFFIXES`.
+        InputError: its suffix is none of `SUFFIXES`.
     """
-    return known_suffix(path, SUFFIXES, "meshes")
+    return format_of(path, FORMATS, "meshes")
 
 
-def encoded(mesh: TetMesh, suffix: str, *, text: bool = False, version: str = "4.1") -> bytes:
-    """The contents of a file with a suffix of `SUFFIXES`; the options are those of `write`.
+def read_file(path: Path) -> ReadMesh:
+    """A mesh as a file has it; one whose suffix tells no format is read in the first that is read.
+
+    Raises:
+        FileError: it cannot be read, or is of another format.
+    """
+    suffix = path.suffix.lower()
+    form = next((known for known in READ if suffix in known.suffixes), READ[0])
+    found: ReadMesh = form.loaded().read(path)
+    return found
+
+
+def encoded(
+    mesh: TetMesh, form: MeshFormat, *, text: bool = False, version: str | None = None
+) -> bytes:
+    """The contents of a file; the options are those of `write`.
 
     Raises:
         DecompError: the format is written by a library that is not installed.
     """
-    if suffix == ".msh" and version == "4.1":
-        from decomp.meshes.files import msh41
-
-        return msh41.encoded(mesh, text=text)
-    contents: bytes = import_module(_WRITERS[suffix]).encoded(mesh)
+    versions = form.versions
+    options = {"text": text, "version": version or versions[0]} if versions else {}
+    contents: bytes = form.loaded().encoded(mesh, **options)
     return contents
 
 
@@ -58,7 +62,7 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
         mesh: to write.
         path: ends in one of `SUFFIXES`, and is not the file that the model was read from.
         text: write Gmsh's format 4.1 as text; other formats are as they are.
-        version: of Gmsh's format, one of `VERSIONS`; 2.2 is always text.
+        version: of Gmsh's format, 4.1 or 2.2, which is always text; other formats have none.
 
     Raises:
         InputError: the suffix or the version is unknown.
@@ -68,9 +72,10 @@ def write(mesh: TetMesh, path: str | Path, *, text: bool = False, version: str =
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
 
-    suffix = suffix_of(path)
-    if version not in VERSIONS:
-        raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(VERSIONS)}")
+    form = form_of(path)
+    known = [each for other in FORMATS for each in other.versions]
+    if version not in (form.versions or known):
+        raise InputError(f"Gmsh's format {version!r} is not written; use {' or '.join(known)}")
     switch(text, "text")
     check_outputs([path], [mesh.source])
-    write_whole(path, encoded(mesh, suffix, text=text, version=version))
+    write_whole(path, encoded(mesh, form, text=text, version=version))

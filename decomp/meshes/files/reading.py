@@ -9,8 +9,9 @@ import numpy as np
 
 from decomp.errors import FileError
 from decomp.meshes.about import About
+from decomp.meshes.files import read_file
 from decomp.meshes.files.finest import finest
-from decomp.meshes.files.msh_reader import NONE, SEVERAL, ReadMesh, read_msh
+from decomp.meshes.files.msh_reader import NONE, SEVERAL, ReadMesh
 from decomp.meshes.group import Group, GroupKind
 from decomp.meshes.model import TetMesh
 from decomp.meshes.parts import Parts, looked_up
@@ -38,7 +39,7 @@ def read(path: str | Path) -> TetMesh:
             several.
     """
     path = path_of(path, "the mesh's file")
-    found = read_msh(path)
+    found = read_file(path)
     _check_groups(found, path)
     rows = found.triangle_tags != NONE
     entities = found.triangle_entities

@@ -1,1 +1,1 @@
-"""Nodes brought from within epsilon onto the exact surfaces, curves and points."""
+"""Nodes brought from within the tolerance onto the exact surfaces, curves and points."""

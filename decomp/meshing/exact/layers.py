@@ -1,6 +1,6 @@
 """Layers: where a region is thin between two others, told by how far their faces are apart.
 
-Where faces touch, a layer between them gets thinner than any epsilon towards the contact, and
+Where faces touch, a layer between them gets thinner than any tolerance towards the contact, and
 beyond it the two others meet directly: there its thickness is negative.
 """
 

@@ -1,7 +1,7 @@
-"""Layers that TetWild has pressed flat are opened again.
+"""Layers that a mesher has pressed flat are opened again.
 
-A region between two faces that touch gets thinner than epsilon towards the contact. There TetWild
-may leave it out, so that its two neighbours meet and their nodes belong to both faces. There
+A region between two faces that touch gets thinner than the tolerance towards the contact. There a
+mesher may leave it out, so that its two neighbours meet and their nodes belong to both faces. There
 
 1. edges that lead from the layer across the curve of contact get a node on it: an end is moved
    there, or they are cut;
@@ -26,7 +26,7 @@ from decomp.meshing.surface.surface import MeshSurface
 from decomp.vectors import Array, Bools, Ints
 
 REACH = 2.5
-"""Nodes that belong on a face are within so many epsilons of it."""
+"""Nodes that belong on a face are within so many tolerances of it."""
 CLOSE = 0.35
 """An edge's end is moved onto the curve if it is nearer than this part of the edge, else the edge
 is cut."""
@@ -46,7 +46,7 @@ class Opener:
     Args:
         geometry, surface, cells, plan: of the model.
         elements: of the plan's complex.
-        epsilon: how far the mesh may be off the complex.
+        tolerance: how far the mesh may be off the complex.
     """
 
     def __init__(
@@ -56,10 +56,10 @@ class Opener:
         cells: CellMap,
         plan: Layout,
         elements: Elements,
-        epsilon: float,
+        tolerance: float,
     ) -> None:
         self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._elements, self._epsilon = elements, epsilon
+        self._elements, self._tolerance = elements, tolerance
         self._layers = layers(surface, plan)
 
     def opened(self, points: Array, tets: Ints, part: Ints) -> tuple[Array, Ints, Ints]:
@@ -104,7 +104,7 @@ class Opener:
         Those in a layer are close to both its walls; beyond the contact edges may be longer.
         """
         found = self._across(layer, nodes)
-        same, reach = SAME * self._geometry.diagonal, REACH * self._epsilon
+        same, reach = SAME * self._geometry.diagonal, REACH * self._tolerance
         side = np.full(len(found.thickness), ON)
         within, beyond = found.gaps.max(axis=0) < reach, found.gaps.min(axis=0) < reach
         side[(found.thickness > same) & within & found.facing] = IN

@@ -25,7 +25,7 @@ from decomp.vectors import Array, Bools, Ints, norm
 BESIDE = 1e-9
 """A sheet's two sides are asked this part of the model's diagonal off it."""
 NEAR_CORNER = 6.0
-"""A corner takes nodes within so many epsilons."""
+"""A corner takes nodes within so many tolerances."""
 SURFACE, LINE, CORNER = 2, 1, 0
 
 
@@ -72,7 +72,7 @@ class Finder:
     Args:
         geometry, surface, cells, plan: of the model.
         elements: of the plan's complex.
-        epsilon: how far nodes are off at first.
+        tolerance: how far nodes are off at first.
     """
 
     def __init__(
@@ -82,13 +82,13 @@ class Finder:
         cells: CellMap,
         plan: Layout,
         elements: Elements,
-        epsilon: float,
+        tolerance: float,
     ) -> None:
         self._geometry, self._cells = geometry, cells
         self._sites = {
             patch: sites for region in surface.regions for patch, sites in region.sheets.items()
         }
-        self._plan, self._elements, self._epsilon = plan, elements, epsilon
+        self._plan, self._elements, self._tolerance = plan, elements, tolerance
         self._group: dict[int, tuple[int, ...]] = {
             patch: own for own in plan.between.values() for patch in own
         }
@@ -184,7 +184,7 @@ class Finder:
             return np.full(len(places), -1, dtype=np.int64)
         at = self._plan.complex.points[self._plan.corners[rows]]
         gap, which = cKDTree(at).query(places)
-        near = gap < NEAR_CORNER * self._epsilon
+        near = gap < NEAR_CORNER * self._tolerance
         return np.asarray(np.where(near, rows[which], -1), dtype=np.int64)
 
     def _lines_like(self, kinds: frozenset[int]) -> list[int]:

@@ -1,8 +1,8 @@
 """Models with their far end brought near: a small part in a wide box, or ball, of air.
 
-TetWild's time grows with the square of the ratio between the model and its smallest feature. Where
+A mesher's time grows with the square of the ratio between the model and its smallest feature. Where
 nothing but one region is between the parts and the end of the model, that end can be brought near
-for TetWild, and what lies between put back afterwards (`sweeping`). It must be a convex body of
+for the mesher, and what lies between put back afterwards (`sweeping`). It must be a convex body of
 planes, or a ball: its image under a scaling about a place inside has faces of the same kinds.
 """
 

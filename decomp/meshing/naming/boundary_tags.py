@@ -14,9 +14,9 @@ from decomp.skeletons.certificate.distance import TriangleTree, triangle_distanc
 from decomp.vectors import Array, Ints, cross, dot, norm
 
 ASIDE = 0.5
-"""Nearest faces are asked so many epsilons off triangles, in their region."""
+"""Nearest faces are asked so many tolerances off triangles, in their region."""
 TURNED = 3.0
-"""A normal at right angles to a face's counts as much as a distance of so many epsilons."""
+"""A normal at right angles to a face's counts as much as a distance of so many tolerances."""
 ANY = -2
 
 
@@ -27,7 +27,7 @@ class BoundaryTags:
         geometry, surface: of the model.
         cells: the cells that tetrahedra were classified by.
         plan: the complex laid out for them.
-        epsilon: how far the mesh may be off the complex.
+        tolerance: how far the mesh may be off the complex.
     """
 
     def __init__(
@@ -36,10 +36,10 @@ class BoundaryTags:
         surface: MeshSurface,
         cells: CellMap,
         plan: Layout,
-        epsilon: float,
+        tolerance: float,
     ) -> None:
         self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._epsilon = plan, epsilon
+        self._plan, self._tolerance = plan, tolerance
         self._trees: dict[int, TriangleTree] = {}
 
     def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
@@ -89,7 +89,7 @@ class BoundaryTags:
         normal /= np.maximum(norm(normal), 1e-300)[:, None]
         middle = corners.mean(axis=1, keepdims=True)
         asked = np.concatenate([middle, middle + 0.7 * (corners - middle)], axis=1)
-        asked = asked - ASIDE * self._epsilon * normal[:, None]
+        asked = asked - ASIDE * self._tolerance * normal[:, None]
         found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
         candidates = self._cells.face[found.site].reshape(-1, 4)
         own = self._cells.region_of(found.part).reshape(-1, 4) == region
@@ -112,5 +112,5 @@ class BoundaryTags:
         boundary = self._surface.regions[region].boundary
         carrier = boundary.carriers[boundary.faces[face].carrier]
         outward = boundary.faces[face].outward * carrier.normal(carrier.foot(corners.mean(axis=1)))
-        off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._epsilon
+        off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._tolerance
         return np.asarray(off + TURNED * (1 - dot(outward, normal)))

@@ -1,7 +1,7 @@
 """Which cell each tetrahedron belongs to.
 
-fTetWild tells only points and tetrahedra. Where a tetrahedron lies is asked of the exact geometry
-at several points inside it. Where they agree that is the answer. Tetrahedra in doubt lie at an
+Most meshers tell only points and tetrahedra. Where one lies is asked of the exact geometry at
+several points inside it. Where they agree that is the answer. Tetrahedra in doubt lie at an
 interface, flat against it or reaching a little beyond: they follow their neighbours, except across
 walls, the triangles that have different cells close to both their sides.
 """
@@ -18,28 +18,45 @@ from decomp.vectors import Array, Bools, Ints, cross, norm
 TOWARDS = 0.4
 """Points asked lie so far from the middle of a tetrahedron to its vertices."""
 ASIDE = 2.0
-"""So many epsilons off a triangle its two sides are asked."""
+"""So many tolerances off a triangle its two sides are asked."""
 NEAR_CORNER = 0.8
 """It is asked in the middle and so far from there to its corners."""
 ROUNDS = 30
 CORRECTIONS = 3
 FAR = 2.0
-"""Nodes of the boundary are at most so many epsilons off it."""
+"""Nodes of the boundary are at most so many tolerances off it."""
 OWN = 0.5
 """What a tetrahedron's own points count against all of its neighbours."""
 
 
 def classified(
-    geometry: Geometry, cells: CellMap, points: Array, tets: Ints, epsilon: float
+    geometry: Geometry, cells: CellMap, points: Array, tets: Ints, tolerance: float
 ) -> Ints:
     """The part (m,) of a cell that each tetrahedron (m, 4) is in, OUTSIDE for none."""
     votes = _votes(geometry, cells, points, tets)
     label = votes[:, 0].copy()
     doubt = (votes != label[:, None]).any(axis=1)
     faces = faces_of(tets)
-    _follow(geometry, cells, points, tets, faces, votes, doubt, label, epsilon)
-    _correct(geometry, cells, points, tets, faces, votes[:, 0], label, epsilon)
+    _follow(geometry, cells, points, tets, faces, votes, doubt, label, tolerance)
+    _correct(geometry, cells, points, tets, faces, votes[:, 0], label, tolerance)
     return label
+
+
+def parts_of_cells(
+    geometry: Geometry, cells: CellMap, points: Array, tets: Ints, told: Ints
+) -> Ints:
+    """The part (m,) that each tetrahedron (m, 4) is in, of the cell that it is told to be in.
+
+    Args:
+        told: (m,) cells, OUTSIDE for none.
+    """
+    several = np.bincount(cells.cell, minlength=len(cells.cells)) > 1
+    part = told.copy()  # the first part of a cell has its number
+    asked = np.flatnonzero((told != OUTSIDE) & several[told])
+    found = locate(geometry, cells, points[tets[asked]].mean(axis=1)).part
+    same = cells.cell_of(found) == told[asked]
+    part[asked[same]] = found[same]
+    return part
 
 
 def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Ints:
@@ -51,7 +68,7 @@ def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Int
 
 
 def walls(
-    geometry: Geometry, cells: CellMap, points: Array, triangles: Ints, epsilon: float
+    geometry: Geometry, cells: CellMap, points: Array, triangles: Ints, tolerance: float
 ) -> Bools:
     """Whether triangles (f, 3) have different cells close to both their sides all over.
 
@@ -59,7 +76,7 @@ def walls(
     """
     corners = points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    way = normal * (ASIDE * epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+    way = normal * (ASIDE * tolerance / np.maximum(norm(normal), 1e-300))[:, None]
     middle = corners.mean(axis=1, keepdims=True)
     asked = np.concatenate([middle, middle + NEAR_CORNER * (corners - middle)], axis=1)
     both = np.concatenate([asked - way[:, None], asked + way[:, None]])
@@ -76,7 +93,7 @@ def _follow(
     votes: Ints,
     doubt: Bools,
     label: Ints,
-    epsilon: float,
+    tolerance: float,
 ) -> None:
     """Let tetrahedra in doubt take the cell that most of their open sides have.
 
@@ -86,7 +103,7 @@ def _follow(
     inner = faces.tets[:, 1] != NONE
     touching = inner & (doubt[faces.tets[:, 0]] | (doubt[faces.tets[:, 1]] & inner))
     rows = np.flatnonzero(touching)
-    rows = rows[~walls(geometry, cells, points, faces.triangles[rows], epsilon)]
+    rows = rows[~walls(geometry, cells, points, faces.triangles[rows], tolerance)]
     a, b, c = np.moveaxis(points[faces.triangles[rows]], 1, 0)
     area = norm(cross(b - a, c - a))
     ends = faces.tets[rows]
@@ -121,7 +138,7 @@ def _correct(
     faces: Faces,
     middle: Ints,
     label: Ints,
-    epsilon: float,
+    tolerance: float,
 ) -> None:
     """Take back what has led the boundary astray: nodes too far from the exact one tell.
 
@@ -129,13 +146,13 @@ def _correct(
         geometry, cells, points, tets, faces: of the mesh.
         middle: (m,) the cell at each tetrahedron's middle.
         label: (m,) is changed.
-        epsilon: how far the boundary may be off.
+        tolerance: how far the boundary may be off.
     """
     for _ in range(CORRECTIONS):
         region = cells.region_of(np.append(label, OUTSIDE)[faces.tets])
         hull = np.unique(faces.triangles[region[:, 0] != region[:, 1]])
         far = np.zeros(len(points), dtype=np.bool_)
-        far[hull] = geometry.index.nearest(points[hull]).distance > FAR * epsilon
+        far[hull] = geometry.index.nearest(points[hull]).distance > FAR * tolerance
         wrong = np.flatnonzero(far[tets].any(axis=1) & (label != middle))
         if not len(wrong):
             return

@@ -12,11 +12,11 @@ from decomp.skeletons.certificate.distance import triangle_distance, triangle_tr
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 ASIDE = 0.5
-"""Feet are asked so many epsilons off triangles, on both sides."""
+"""Feet are asked so many tolerances off triangles, on both sides."""
 JUMP = 4.0
-"""Feet jump across a sheet by at least so many epsilons."""
+"""Feet jump across a sheet by at least so many tolerances."""
 OWN = 1.2
-"""Nodes on the sheet of an edge with itself are at most so many epsilons off it at first."""
+"""Nodes on the sheet of an edge with itself are at most so many tolerances off it at first."""
 
 
 class SheetTags:
@@ -26,7 +26,7 @@ class SheetTags:
         geometry, surface: of the model.
         cells: the cells that tetrahedra were classified by.
         plan: the complex laid out for them.
-        epsilon: how far the mesh may be off the complex.
+        tolerance: how far the mesh may be off the complex.
     """
 
     def __init__(
@@ -35,10 +35,10 @@ class SheetTags:
         surface: MeshSurface,
         cells: CellMap,
         plan: Layout,
-        epsilon: float,
+        tolerance: float,
     ) -> None:
         self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._epsilon = plan, epsilon
+        self._plan, self._tolerance = plan, tolerance
 
     def between(self, points: Array, triangles: Ints, sides: Ints) -> Ints:
         """The sheets of triangles between cells (k, 2) of one region.
@@ -96,8 +96,8 @@ class SheetTags:
         return found
 
     def _near(self, points: Array, nodes: Ints, corners: Array) -> Bools:
-        """Which of all points are nodes within some epsilons of triangles with given corners."""
-        reach = OWN * self._epsilon
+        """Which of all points are nodes within some tolerances of triangles with given corners."""
+        reach = OWN * self._tolerance
         low, high = corners.min(axis=(0, 1)) - reach, corners.max(axis=(0, 1)) + reach
         nodes = nodes[((points[nodes] >= low) & (points[nodes] <= high)).all(axis=1)]
         near = np.zeros(len(points), dtype=np.bool_)
@@ -123,8 +123,8 @@ class SheetTags:
     def _jumps(self, corners: Array) -> Bools:
         """Whether the feet on both sides of triangles, given by their corners, are far apart."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+        way = normal * (ASIDE * self._tolerance / np.maximum(norm(normal), 1e-300))[:, None]
         middle = corners.mean(axis=1)
         asked = np.concatenate([middle - way, middle + way])
         feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
-        return np.asarray(norm(feet[0] - feet[1]) > JUMP * self._epsilon)
+        return np.asarray(norm(feet[0] - feet[1]) > JUMP * self._tolerance)

@@ -45,7 +45,7 @@ class Tagger:
         geometry, surface: of the model.
         cells: the cells that tetrahedra were classified by.
         plan: the complex laid out for them.
-        epsilon: how far the mesh may be off the complex.
+        tolerance: how far the mesh may be off the complex.
     """
 
     def __init__(
@@ -54,11 +54,11 @@ class Tagger:
         surface: MeshSurface,
         cells: CellMap,
         plan: Layout,
-        epsilon: float,
+        tolerance: float,
     ) -> None:
         self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._boundary = BoundaryTags(geometry, surface, cells, plan, epsilon)
-        self._sheets = SheetTags(geometry, surface, cells, plan, epsilon)
+        self._boundary = BoundaryTags(geometry, surface, cells, plan, tolerance)
+        self._sheets = SheetTags(geometry, surface, cells, plan, tolerance)
         self._part_of_face = {
             (site.region, site.index): int(cells.part[number])
             for number, site in enumerate(surface.sites)
@@ -99,7 +99,7 @@ class Tagger:
     ) -> bool:
         """Whether triangles at some nodes would be told the same patches where nodes are now.
 
-        Beside a sharp edge that TetWild has cut off, a triangle can be turned to either face until
+        Beside a sharp edge that a mesher has cut off, a triangle can be turned to either face until
         its other nodes are on the edge.
 
         Args:

@@ -1,7 +1,7 @@
 """Nodes that have no room where they belong take in the neighbour that is in their way.
 
-TetWild's nodes are up to epsilon off their surfaces, and where edges are hardly longer than that a
-node inside can be just where one of a surface belongs.
+A mesher's nodes are up to the tolerance off their surfaces, and where edges are hardly longer than
+that a node inside can be just where one of a surface belongs.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Nodes that have no room where they belong are merged with a neighbour that belongs there too.
 
-TetWild can end a sheet a little short of the edge or seam that it should reach, next to nodes that
-are on it. Such a node cannot be moved there without flattening tetrahedra: it is one too many.
+A mesher that keeps to a tolerance can end a sheet a little short of the edge or seam that it should
+reach, next to nodes that are on it. Such a node cannot be moved there without flattening
+tetrahedra: it is one too many.
 """
 
 from __future__ import annotations

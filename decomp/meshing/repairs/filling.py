@@ -1,4 +1,4 @@
-"""Sharp edges that TetWild has cut off are put back.
+"""Sharp edges that a mesher has cut off are put back.
 
 Two nodes on an edge can be joined across the cut by an edge between a node of either face, in
 place of an edge between the two: no node can be moved so that the faces meet in their edge. The

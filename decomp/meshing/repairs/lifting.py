@@ -1,7 +1,7 @@
 """The worst tetrahedra made better: their nodes are tried in places all around.
 
-TetWild now and then leaves one or two flat elements, which the middle of their neighbours does not
-mend. There are few, so each node is looked at by itself.
+A mesher such as TetWild now and then leaves one or two flat elements, which the middle of their
+neighbours does not mend. There are few, so each node is looked at by itself.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Sheets that come down on a face short of the edge that they should reach are lifted off it.
 
-At a sharp edge TetWild can end a sheet many epsilons before the edge, at nodes of a face. All that
-is close to such a node belongs to the cell of its face. So the tetrahedra of other cells at it are
-cut where the exact sheet passes, and their parts next to it are given to the cell of the face.
+At a sharp edge such a mesher can end a sheet many tolerances before the edge, at nodes of a face.
+All that is close to such a node belongs to the cell of its face. So the tetrahedra of other cells
+at it are cut where the exact sheet passes, and their parts next to it are given to the cell of the
+face.
 """
 
 from __future__ import annotations

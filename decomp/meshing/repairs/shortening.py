@@ -1,8 +1,8 @@
 """Edges longer than asked are cut in two.
 
-TetWild aims at the lengths asked, and leaves some edges almost twice as long; on small faces even
-the mean can be above what is asked. They are cut before
-nodes are put in place, so that new ones on faces, sheets and edges go there with all others.
+A mesher such as TetWild aims at the lengths asked, and leaves some edges almost twice as long; on
+small faces even the mean can be above what is asked. They are cut before nodes are put in place, so
+that new ones on faces, sheets and edges go there with all others.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How long edges on curved faces can be: TetWild is given triangles close to the exact ones."""
+"""How long edges on curved faces can be: a mesher is given triangles close to the exact ones."""
 
 from __future__ import annotations
 

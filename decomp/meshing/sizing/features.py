@@ -1,4 +1,4 @@
-"""The smallest features of a model, from which TetWild's epsilon is taken."""
+"""The smallest features of a model, from which the mesh's tolerance is taken."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ ALONG = 9
 SAMPLED = 12.0
 """Features are looked for at points this part of a region's diagonal apart."""
 USUAL = 5e-3
-"""Epsilon relative to the smallest region's diagonal, where nothing asks for less."""
+"""The tolerance relative to the smallest region's diagonal, where nothing asks for less."""
 OF_LENGTH = 0.1
-"""Epsilon relative to the shortest edges wanted. TetWild tests triangles by samples that are about
-epsilon apart, so its time goes with the square of their ratio."""
+"""The tolerance relative to the shortest edges wanted. A mesher that tests triangles by samples
+about as far apart takes time with the square of their ratio."""
 OF_THICKNESS, OF_EDGE = 0.2, 0.12
-"""Epsilon is at most these parts of the least thickness, and of the shortest edge."""
+"""The tolerance is at most these parts of the least thickness, and of the shortest edge."""
 OF_THIN, SLENDER = 0.15, 3.0
 """And at most the first of the least thickness where the largest edges are more than so many times
 as long: nothing holds such triangles off each other in between."""
@@ -35,31 +35,31 @@ OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""
 OF_NECK, OF_ALL = 0.3, 0.1
 """And at most the first part of the narrowest place of a face, but no less on its account than the
-second part of what it is else: over narrower ones TetWild may draw edges together."""
+second part of what it is else: over narrower ones a mesher may draw edges together."""
 WIDE = 30.0
-"""Where a sheet ends in an edge at less than this angle (degrees) to the faces, epsilon is smaller:
-TetWild lets it end epsilon / sin(angle) before the edge."""
+"""Where a sheet ends in an edge at less than this angle (degrees) to the faces, the tolerance is
+smaller: the mesher lets it end the tolerance / sin(angle) before the edge."""
 ZOOMS, PROMISING, CLOSE = 4, 6, 2.0
 """A wall's narrowest place is looked for in so many rounds, with samples a quarter as far apart in
 each, for so many walls in which samples find the least, and less than so many times the least."""
 SETTLED = 0.98
 """A look that finds no less than this part of what was known is the last."""
 LEAST = 1e-5
-"""Epsilon is at least this part of the model's diagonal."""
+"""The tolerance is at least this part of the model's diagonal."""
 
 
-def usual_epsilon(geometry: Geometry, length: float, cusp: float = 0.0) -> float:
-    """Epsilon as far as it is known without the skeleton, for edges of a length.
+def usual_tolerance(geometry: Geometry, length: float, cusp: float = 0.0) -> float:
+    """The tolerance as far as it is known without the skeleton, for edges of a length.
 
     Angles below that of a cusp (degrees) do not count.
     """
     smallest = min(region.diagonal for region in geometry.regions)
-    epsilon = min(USUAL * smallest, OF_LENGTH * length)
+    tolerance = min(USUAL * smallest, OF_LENGTH * length)
     sharpest = min(sharpest_angle(region, cusp) for region in geometry.regions) / 2
     narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))
-    epsilon *= min(1.0, float(narrow**2))
+    tolerance *= min(1.0, float(narrow**2))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
-    return max(min(epsilon, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
+    return max(min(tolerance, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
 
 
 def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
@@ -81,28 +81,28 @@ def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
     return least
 
 
-def fitting_epsilon(
-    geometry: Geometry, surface: MeshSurface, epsilon: float, longest: float
+def fitting_tolerance(
+    geometry: Geometry, surface: MeshSurface, tolerance: float, longest: float
 ) -> float:
-    """An epsilon, no larger than a given one, that thin walls, narrow gaps and faces allow.
+    """A tolerance, no larger than a given one, that thin walls, narrow gaps and faces allow.
 
     Args:
         geometry: of the model.
         surface: its boundary and skeleton.
-        epsilon: the largest.
+        tolerance: the largest.
         longest: the length of the largest edges.
     """
     numbers = range(len(surface.regions))
     thin = min(least_thickness(geometry, surface, number) for number in numbers)
     part = OF_THIN if longest > SLENDER * thin else OF_THICKNESS
-    epsilon = min(epsilon, part * thin)
-    neck = min(narrowest(region, epsilon / OF_NECK) for region in geometry.regions)
-    epsilon = min(epsilon, max(OF_NECK * neck, OF_ALL * epsilon))
-    while epsilon > LEAST * geometry.diagonal and has_gap(
-        geometry, surface, epsilon / OF_THICKNESS
+    tolerance = min(tolerance, part * thin)
+    neck = min(narrowest(region, tolerance / OF_NECK) for region in geometry.regions)
+    tolerance = min(tolerance, max(OF_NECK * neck, OF_ALL * tolerance))
+    while tolerance > LEAST * geometry.diagonal and has_gap(
+        geometry, surface, tolerance / OF_THICKNESS
     ):
-        epsilon /= 2
-    return max(epsilon, LEAST * geometry.diagonal)
+        tolerance /= 2
+    return max(tolerance, LEAST * geometry.diagonal)
 
 
 def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:

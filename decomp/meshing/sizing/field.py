@@ -1,4 +1,4 @@
-"""The size field as TetWild takes it: lengths at the nodes of a background mesh.
+"""The size field as meshers take it: lengths at the nodes of a background mesh.
 
 The background is the Delaunay mesh of the corners of an octree's cells, which are about as wide as
 the lengths wanted in them: fine where these are short, and coarse in what is empty.
@@ -29,17 +29,18 @@ UNIFORM = 1.15
 """Lengths that differ by no more than this factor need no field,"""
 HOLLOW = 5.0
 """unless one length all over the box gives more than so many times as many tetrahedra as a field
-that grows outside the model does: TetWild fills the box, and a field takes it two more passes."""
+that grows outside the model does: a mesher of the whole box, such as TetWild, fills it, and a field
+takes it two more passes."""
 PROBES = 4000
 WIDEST = 0.5
 """The longest length beside the model, in parts of its diagonal: a slender one fills little of the
 cube that its field is made in."""
 AROUND = 0.05
-"""How far TetWild's box reaches beyond the model, in parts of its diagonal."""
+"""How far such a box reaches beyond the model, in parts of its diagonal."""
 
 
 def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeField | None]:
-    """The length TetWild begins with all over, and the field that refines the mesh then.
+    """The length a mesher begins with all over, and the field that refines the mesh then.
 
     There is no field where one length serves.
 

@@ -1,4 +1,4 @@
-"""Whether a mesh will fit into memory, told before TetWild is started."""
+"""Whether a mesh will fit into memory, told before a mesher is started."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
 VOLUME, ASKED = 3e-3, 1.4e-3
 """Where edges of the wanted length would change a region's volume by more than the first part of
-it, they are made so short that it is the second: TetWild leaves edges up to 4/3 as long."""
+it, they are made so short that it is the second: meshers leave edges up to 4/3 as long."""
 LEAST = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
 CANCELLED = 0.3

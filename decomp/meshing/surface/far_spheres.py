@@ -1,7 +1,7 @@
 """How coarse whole spheres may be that are far from all else: the far end of the air around a part.
 
-Epsilon, and with it the chord tolerance, follows the smallest feature of a model. A sphere that
-nothing comes near needs no such chords: its own edges, which are long, leave it by more.
+The tolerance, and with it the chord tolerance, follows the smallest feature of a model. A sphere
+that nothing comes near needs no such chords: its own edges, which are long, leave it by more.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The complex that a mesh conforms to: the skeleton's, as coarse as it may be.
 
-TetWild's time goes with the number of triangles and their shape, and nodes are moved onto the
+A mesher's time goes with the number of triangles and their shape, and nodes are moved onto the
 exact surfaces afterwards, so chords may be coarser here than in a skeleton that is an end in
 itself. Trim surfaces are left out unless cells of single faces are wanted. In place of the
 skeleton's certificate the surfaces of all cells must be closed and hold the regions' volumes.

@@ -1,6 +1,6 @@
-"""Skeletons and cells to files. The suffix of a file's name tells its format.
+"""Skeletons and cells to files, in the formats of `table.py`.
 
-The writers are loaded when they are first used.
+The suffix of a file's name tells its format. The writers are loaded when they are first used.
 """
 
 from __future__ import annotations
@@ -8,22 +8,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from decomp.files.suffixes import known_suffix
+from decomp.files.format import format_of, suffixes
+from decomp.skeletons.files.table import FORMATS, SkeletonFormat
 
 if TYPE_CHECKING:
     from decomp.skeletons.model import Skeleton
 
-SUFFIXES = (".vtu", ".ply", ".obj", ".json")
-CELL_FORMATS = ("stl", "obj", "ply")
+SUFFIXES = suffixes(FORMATS)
 
 
-def suffix_of(path: str | Path) -> str:
-    """The suffix of a file that `write` can write.
+def form_of(path: str | Path) -> SkeletonFormat:
+    """The format of a file that `write` can write.
 
     Raises:
-        InputError: it is none of `SUFFIXES`.
+        InputError: its suffix is none of `SUFFIXES`.
     """
-    return known_suffix(path, SUFFIXES, "skeletons")
+    return format_of(path, FORMATS, "skeletons")
 
 
 def write(
@@ -43,14 +43,10 @@ def write(
     """
     from decomp.files.targets import check_outputs
     from decomp.files.whole_file import write_whole
-    from decomp.skeletons.files import as_json, obj, ply, vtu
     from decomp.skeletons.files.elements import elements
 
-    suffix = suffix_of(path)
+    form = form_of(path)
     check_outputs([path], [skeleton.source])
-    if suffix == ".json":
-        write_whole(path, as_json.encoded(skeleton))
-        return
-    parts = elements(skeleton, boundary=boundary, trims=trims)
-    encode = {".vtu": vtu.encoded, ".ply": ply.encoded, ".obj": obj.encoded}[suffix]
-    write_whole(path, encode(parts))
+    given = elements(skeleton, boundary=boundary, trims=trims) if form.triangles else skeleton
+    contents: bytes = form.loaded().encoded(given)
+    write_whole(path, contents)

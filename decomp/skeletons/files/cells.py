@@ -9,16 +9,16 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Literal
 
-from decomp.errors import FileError, InputError
+from decomp.errors import FileError
+from decomp.files.format import format_named
 from decomp.files.targets import check_outputs, reason, same_file
 from decomp.files.whole_file import write_whole
 from decomp.skeletons.cells.surface import cell_surface
-from decomp.skeletons.files import CELL_FORMATS, obj, ply, stl
+from decomp.skeletons.files.table import CELL_FORMATS
 from decomp.skeletons.model import Skeleton
 
 CellKind = Literal["skeleton", "face"]
 INDEX = "index.json"
-SURFACES = {"stl": stl.surface, "obj": obj.surface, "ply": ply.surface}
 LONGEST = 200
 """Bytes of a file's name before its suffix; file systems allow 255 for all."""
 
@@ -34,7 +34,7 @@ def write_cells(
         skeleton: whose cells to write.
         directory: is made if it does not exist.
         kind: skeleton cells, or face cells.
-        form: one of `CELL_FORMATS`.
+        form: the name of one of `CELL_FORMATS`.
 
     Returns:
         the files, in the order of regions and cells, the index last.
@@ -43,8 +43,7 @@ def write_cells(
         InputError: the format is unknown.
         FileError: the directory or a file cannot be written, or the model was read from one.
     """
-    if form not in SURFACES:
-        raise InputError(f"{form!r} is no format for cells; use {', '.join(CELL_FORMATS)}")
+    writer = format_named(form, CELL_FORMATS, "cells").loaded()
     check_directory(directory, form)
     folder = Path(directory)
     try:
@@ -62,7 +61,7 @@ def write_cells(
     rows: list[dict[str, Any]] = []
     for (region, cell), file in zip(pairs, names, strict=True):
         points, triangles = cell_surface(skeleton.complex, cell.sides)
-        write_whole(folder / file, SURFACES[form](points, triangles))
+        write_whole(folder / file, writer.surface(points, triangles))
         rows.append(
             {
                 "name": cell.name,
@@ -87,7 +86,7 @@ def check_directory(directory: str | Path, form: str, model: str | Path | None =
 
     Args:
         directory: to write to.
-        form: one of `CELL_FORMATS`.
+        form: the name of one of `CELL_FORMATS`.
         model: the file that it is read from, if any.
 
     Raises:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -11,8 +11,17 @@ from decomp.skeletons.files.elements import KINDS, Elements
 from decomp.vectors import Array, Ints
 
 
-def encoded(parts: Elements) -> bytes:
-    """Triangles in groups, reflexive curves as lines, reflexive points as points."""
+def encoded(
+    parts: Elements,
+    at_points: Mapping[str, Array] | None = None,
+    at_triangles: Mapping[str, Array] | None = None,
+) -> bytes:
+    """Triangles in groups, reflexive curves as lines, reflexive points as points.
+
+    Args:
+        parts: what the file holds.
+        at_points, at_triangles: have no place here.
+    """
     return "\n".join(["# made by decomp", *_vertices(parts.points), *_groups(parts), ""]).encode()
 
 

@@ -16,12 +16,17 @@ Column = tuple[str, str, NDArray[Any]]
 """Name, type and values."""
 
 
-def encoded(parts: Elements, at_points: Mapping[str, Array] | None = None) -> bytes:
+def encoded(
+    parts: Elements,
+    at_points: Mapping[str, Array] | None = None,
+    at_triangles: Mapping[str, Array] | None = None,
+) -> bytes:
     """Triangles with their sheet and region, and the reflexive curves as edges.
 
     Args:
         parts: what the file holds.
         at_points: further values of vertices, by name.
+        at_triangles: has no place here.
     """
     count = len(parts.triangles)
     curves = parts.kind[count : count + len(parts.segments)] == KINDS.index("reflexive")

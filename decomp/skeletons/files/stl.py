@@ -2,14 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from decomp.errors import InputError
+from decomp.skeletons.files.elements import Elements
 from decomp.vectors import Array, Ints, cross, norm
 
 COARSEST = 1e-4
 """Coordinates may be so much of what is written apart from each other."""
 ROW = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
+
+
+def encoded(
+    parts: Elements,
+    at_points: Mapping[str, Array] | None = None,
+    at_triangles: Mapping[str, Array] | None = None,
+) -> bytes:
+    """Triangles alone.
+
+    Args:
+        parts: what the file holds.
+        at_points, at_triangles: have no place here.
+
+    Raises:
+        InputError: as of `surface`.
+    """
+    return surface(parts.points, parts.triangles)
 
 
 def surface(points: Array, triangles: Ints) -> bytes:

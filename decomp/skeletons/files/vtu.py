@@ -21,13 +21,15 @@ VTK_TRIANGLE, VTK_LINE, VTK_VERTEX = 5, 3, 1
 TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "int8": "Int8", "uint8": "UInt8"}
 
 
-def encoded(parts: Elements, at_points: Arrays | None = None, more: Arrays | None = None) -> bytes:
+def encoded(
+    parts: Elements, at_points: Arrays | None = None, at_triangles: Arrays | None = None
+) -> bytes:
     """A grid of triangles, lines and vertices.
 
     Args:
         parts: what it holds.
         at_points: further point data, by name.
-        more: further cell data, by name.
+        at_triangles: further cell data, by name; of parts that are triangles alone.
 
     Point data: radius. Cell data: sheet, sites, parity, surface (what a sheet lies on, an index
     into `elements.SURFACES`) and its degree, kind (an index into `elements.KINDS`), region, seam;
@@ -51,7 +53,7 @@ def encoded(parts: Elements, at_points: Arrays | None = None, more: Arrays | Non
         "kind": parts.kind.astype(np.int8),
         "region": parts.region.astype(np.int32),
         "seam": parts.seam.astype(np.int32),
-        **(more or {}),
+        **(at_triangles or {}),
     }
     order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
     lines = [

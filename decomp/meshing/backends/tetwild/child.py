@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import io
-import math
 import os
 import signal
 import subprocess
@@ -20,28 +19,24 @@ from pathlib import Path
 
 import numpy as np
 
-from decomp.errors import DecompError, FileError, GeometryError, InputError
+from decomp.errors import FileError, GeometryError, InputError
 from decomp.files.targets import reason
+from decomp.meshing.backends.base import MeshingError, TimeLimit
 from decomp.meshing.backends.tetwild.worker import FULL, MISSING, SPENT
-from decomp.meshing.backends.tetwild.workplace import ROOM, sweep, workplace
 from decomp.meshing.sizing.size_field import SizeField
+from decomp.processes.workplace import ROOM, swept, workplace
 from decomp.vectors import Array, Ints
 
+NAME = "tetwild"
+"""Of the directories that it works in."""
 WORKER = Path(__file__).with_name("worker.py")
 EDGE_IN_EPSILONS = 6.0
 """Edges are at least so many epsilons long."""
 ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
-PATIENCE = 4.0
-"""By the clock, work may take so many times as long as on a machine with nothing else to do."""
+UNHURRIED = TimeLimit(600.0)
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
-
-
-class MeshingError(DecompError):
-    """fTetWild gave no mesh, and no second try with other settings did."""
-
-    exit_code = 4
 
 
 @dataclass(frozen=True)
@@ -83,27 +78,8 @@ class Settings:
         )
 
 
-@dataclass(frozen=True)
-class TimeLimit:
-    """When a try is given up.
-
-    Args:
-        clock: seconds that may pass.
-        busy: seconds that the child may compute, whatever else the machine does, in whole ones.
-            Systems without such a limit have the clock's alone.
-    """
-
-    clock: float
-    busy: float = math.inf
-
-    @classmethod
-    def of_work(cls, seconds: float) -> TimeLimit:
-        """For so much work, on a machine that may be doing other things beside it."""
-        return cls(PATIENCE * seconds, seconds)
-
-
 @dataclass(frozen=True, eq=False)
-class Tetrahedra:
+class Filling:
     """What fTetWild made.
 
     Args:
@@ -124,9 +100,9 @@ def tetrahedralized(
     triangles: Ints,
     settings: Settings,
     field: SizeField | None = None,
-    limit: TimeLimit = TimeLimit(600.0),
+    limit: TimeLimit = UNHURRIED,
     tell: Callable[[str], None] = lambda note: None,
-) -> Tetrahedra:
+) -> Filling:
     """Fill the box around triangles with tetrahedra that conform to them.
 
     Args:
@@ -154,7 +130,7 @@ def tetrahedralized(
             notes.append(f"TetWild {error} ({attempt})")
             tell(f"{notes[-1]}, trying again with other settings")
             continue
-        return Tetrahedra(found * scale + centre, tets, attempt, tuple(notes))
+        return Filling(found * scale + centre, tets, attempt, tuple(notes))
     raise MeshingError("; then ".join(notes) + f". {ADVICE}")
 
 
@@ -220,8 +196,8 @@ def _run(arrays: dict[str, object], limit: TimeLimit) -> tuple[Array, Ints]:
     """
     packed = io.BytesIO()
     np.savez(packed, **arrays)  # type: ignore[arg-type]
-    sweep()
-    with workplace() as directory:
+    swept(NAME)
+    with workplace(NAME) as directory:
         source, target = directory / "in.npz", directory / "out.npz"
         try:
             source.write_bytes(packed.getvalue())

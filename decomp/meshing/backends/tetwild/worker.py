@@ -3,7 +3,7 @@
 It is a script of its own, run by path and without the rest of the package: fTetWild may crash, hang
 or end the process, and it starts sooner this way. Its extension module is loaded without its
 package, whose import takes longer than some meshes because it needs pyvista. Its standard input is
-a pipe whose end tells it to end too (`decomp/meshing/backends/tetwild/lifeline.py`).
+a pipe whose end tells it to end too (`decomp/processes/lifeline.py`).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ FULL = 4
 """Exit code: the result cannot be written; stderr says why."""
 SPENT = 24
 """Signal that ends it when its seconds of computing are spent (SIGXCPU)."""
-LIFELINE = Path(__file__).with_name("lifeline.py")
+LIFELINE = Path(__file__).parents[3] / "processes" / "lifeline.py"
 
 
 def extension() -> ModuleType:

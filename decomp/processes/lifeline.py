@@ -6,7 +6,8 @@ to look. The child itself may be deep in code that lets no thread of Python run,
 forked from it waits at the pipe and ends the group of both. On Linux the system is asked to end the
 child with its parent too: it does so even where a copy of the parent keeps the pipe open.
 
-It needs nothing of the package, as it is loaded by path too (`worker.py` beside it).
+It needs nothing of the package, as it is loaded by path too
+(`decomp/meshing/backends/tetwild/worker.py`).
 """
 
 from __future__ import annotations

@@ -21,39 +21,50 @@ from decomp.errors import FileError
 from decomp.files.targets import reason
 
 ROOM = "set TMPDIR to a directory with room"
-PREFIX = "decomp-tetwild-"
-NAME = re.compile(re.escape(PREFIX) + "[a-z0-9_]{8}")
-"""What `tempfile` makes of the prefix: no user's own directory is called so."""
+ENDING = "[a-z0-9_]{8}"
+"""What `tempfile` puts after a prefix: no user's own directory is called so."""
 
 
 @contextmanager
-def workplace() -> Iterator[Path]:
-    """A new directory, removed in the end; if this process is killed, by `sweep` later.
+def workplace(name: str) -> Iterator[Path]:
+    """A new directory, removed in the end; if this process is killed, by `swept` later.
+
+    Args:
+        name: of what works there.
 
     Raises:
         FileError: there is no temporary directory that can be written to.
     """
-    place, lock = _locked()
+    place, lock = _locked(_prefix(name))
     try:
         yield place
     finally:
-        # what cannot be removed now is left to `sweep`
+        # what cannot be removed now is left to `swept`
         shutil.rmtree(place, ignore_errors=True)
         if lock is not None:
             os.close(lock)
 
 
-def sweep() -> None:
+def swept(name: str) -> None:
     """Remove this user's directories whose owners have died, of all programs on this machine.
+
+    Args:
+        name: of what worked there.
 
     Raises:
         FileError: there is no temporary directory that can be written to.
     """
     if sys.platform == "win32":
         return
-    for place in _temporary().glob(f"{PREFIX}*"):
-        if NAME.fullmatch(place.name):
+    prefix = _prefix(name)
+    ours = re.compile(re.escape(prefix) + ENDING)
+    for place in _temporary().glob(f"{prefix}*"):
+        if ours.fullmatch(place.name):
             _sweep(place)
+
+
+def _prefix(name: str) -> str:
+    return f"decomp-{name}-"
 
 
 def _temporary() -> Path:
@@ -70,7 +81,7 @@ def _temporary() -> Path:
         raise FileError(f"{error.strerror}; {ROOM}") from None
 
 
-def _locked() -> tuple[Path, int | None]:
+def _locked(prefix: str) -> tuple[Path, int | None]:
     """A new directory and the descriptor that holds its lock.
 
     Between the directory's making and its locking somebody may sweep it, so another is made then.
@@ -78,7 +89,7 @@ def _locked() -> tuple[Path, int | None]:
     while True:
         where = _temporary()
         try:
-            place = Path(tempfile.mkdtemp(prefix=PREFIX, dir=where))
+            place = Path(tempfile.mkdtemp(prefix=prefix, dir=where))
         except OSError as error:
             raise FileError(
                 f"no temporary directory can be made here: {reason(error)}; {ROOM}", where
