@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
-from decomp.meshes.faces import faces_of, least_dihedral, volumes
+from decomp.meshes.faces import faces_of, is_complex, least_dihedral, volumes
 from decomp.meshing.repairs.flipping import WANTED, flipped
 from decomp.meshing.repairs.rings import RING
 from decomp.vectors import Array, Ints
@@ -98,3 +98,18 @@ def test_an_edge_on_a_patch_stays(count: int) -> None:
 def test_an_edge_between_parts_stays() -> None:
     points, tets = around_an_edge(4)
     assert flipped(points, tets, np.array([0, 0, 1, 1]), NO_TRIANGLES) is None
+
+
+def test_no_triangle_comes_twice_where_tetrahedra_lie_over_each_other() -> None:
+    """Two flat ones give way to three around an edge, unless that has a triangle elsewhere."""
+    turn = 2 * np.pi * np.arange(3) / 3
+    ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    points = np.concatenate([ring, [[0, 0, -0.05], [0, 0, 0.05], [0.5, 1, 1]]])
+    flat = np.array([[0, 2, 1, 3], [0, 1, 2, 4]])
+    other = np.array([[3, 4, 0, 5]])
+    for tets, exchanged in ((flat, True), (np.concatenate([flat, other]), False)):
+        sound = np.where((volumes(points, tets) > 0)[:, None], tets, tets[:, [1, 0, 2, 3]])
+        part = np.zeros(len(sound), dtype=np.int64)
+        found = flipped(points, sound, part, NO_TRIANGLES)
+        assert (found is not None) == exchanged
+        assert is_complex(sound if found is None else found[0])

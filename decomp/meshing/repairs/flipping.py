@@ -130,13 +130,24 @@ class _Patch:
         return len({self._part[k] for k in numbers}) == 1
 
     def _judged(self, old: set[int], new: Ints) -> list[_Exchange]:
-        """The exchange, if it makes the least angle greater."""
-        if not len(new):
+        """The exchange, if it makes the least angle greater.
+
+        Where tetrahedra lie over each other, a triangle between new ones can be there already.
+        """
+        if not len(new) or self._is_there(old, new):
             return []
         angle = float(least_dihedral(self._points, new).min())
         if angle < min(self._angle[k] for k in old) + GAIN:
             return []
         return [_Exchange(tuple(old), new, angle)]
+
+    def _is_there(self, old: set[int], new: Ints) -> bool:
+        """Whether other tetrahedra than the old have a triangle between two new ones."""
+        triangles = np.sort(new[:, OPPOSITE].reshape(-1, 3), axis=1)
+        rows, count = np.unique(triangles, axis=0, return_counts=True)
+        return any(
+            self._at[a] & self._at[b] & self._at[c] - old for a, b, c in rows[count == 2].tolist()
+        )
 
     def _do(self, exchange: _Exchange) -> None:
         part = self._part[exchange.old[0]]
