@@ -27,6 +27,12 @@ def axial_split(p: Array, point: Array, axis: Array) -> tuple[Array, Array, Arra
     return z, rho, outward
 
 
+def off_axis(p: Array, point: Array, axis: Array) -> Array:
+    """Distance (k,) of points p (k, 3) from the line through a point along an axis."""
+    away = p - point
+    return norm(away - (away @ axis)[:, None] * axis)
+
+
 def axial_rows(rows: Array, p: Array) -> tuple[Array, Array]:
     """Height and distance (m, n) of points p (n, 3) from the axes of carriers' rows (m, ROW)."""
     away = p[None, :, :] - rows[:, None, :3]

@@ -13,6 +13,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from decomp.carriers.charts import Chart
+from decomp.errors import GeometryError
 from decomp.similarity import Similarity
 from decomp.vectors import Array, frozen
 
@@ -193,6 +194,25 @@ class Carrier(ABC):
     def tip_axis(self) -> Array | None:
         """The unit direction (3,) from the tip into the inside, None where there is no tip."""
         return None
+
+    def reflexive_gap(self, outward: int, points: Array) -> Array:
+        """Distance (k,) of points (k, 3) from the reflexive locus on a face's inner side.
+
+        Infinite where there is none.
+
+        Args:
+            outward: +1 if that is the carrier's inside, else -1.
+            points: anywhere.
+        """
+        return np.full(len(points), np.inf)
+
+    def inner_radius(self, outward: int, points: Array) -> Array:
+        """Distance (k,) from points (k, 3) of the carrier along normals to that locus.
+
+        Raises:
+            GeometryError: there is none on either side.
+        """
+        raise GeometryError(f"{self.kind}: this surface has no reflexive locus")
 
     def around_tip(self, step: float) -> Array:
         """Points (k, 3) all around its tip, a step down its rulings; none where there is none."""

@@ -104,8 +104,6 @@ def signed_distance(table: CarrierTable, c: int, x: float, y: float, z: float) -
     if code == SPHERE:
         vx, vy, vz = x - packed[c, 0], y - packed[c, 1], z - packed[c, 2]
         return float(sqrt(vx * vx + vy * vy + vz * vz) - packed[c, 6])
-    if code == ELLIPTIC_CYLINDER:
-        return elliptic_distance(packed, c, x, y, z)
     height, rho = axial(packed, c, x, y, z)
     if code == CYLINDER:
         return float(rho - packed[c, 6])
@@ -114,7 +112,9 @@ def signed_distance(table: CarrierTable, c: int, x: float, y: float, z: float) -
         if rho * sine + height * cosine > 0.0:
             return float(rho * cosine - height * sine)
         return hypot(rho, height)
-    return float(hypot(rho - packed[c, 6], height) - packed[c, 7])
+    if code == TORUS:
+        return float(hypot(rho - packed[c, 6], height) - packed[c, 7])
+    return elliptic_distance(packed, c, x, y, z)
 
 
 @inner

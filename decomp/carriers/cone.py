@@ -15,6 +15,7 @@ from decomp.carriers.axial import (
     circle_through,
     heights,
     odd_side,
+    off_axis,
     round_reach,
 )
 from decomp.carriers.base import Border, Carrier, Level, pack
@@ -165,6 +166,15 @@ class Cone(Carrier):
         if tip:
             return ConeChart(self.apex, self.axis, self.angle)
         return ConeStripChart(self.apex, self.axis, self.angle, reach)
+
+    def reflexive_gap(self, outward: int, points: Array) -> Array:
+        if outward < 0:
+            return super().reflexive_gap(outward, points)
+        return off_axis(points, self.apex, self.axis)
+
+    def inner_radius(self, outward: int, points: Array) -> Array:
+        # the normal from the point at slant length l meets the axis at distance l tan(angle)
+        return np.asarray(norm(points - self.apex) * np.tan(self.angle))
 
     def packed(self) -> Array:
         return pack(self.apex, self.axis, sin(self.angle), cos(self.angle))

@@ -14,6 +14,7 @@ from decomp.carriers.axial import (
     axis_deviation,
     circle_through,
     nearest_to_origin,
+    off_axis,
     round_reach,
     straight_box,
 )
@@ -106,6 +107,14 @@ class Cylinder(StraightSides):
 
     def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
         return CylinderChart(self.point, self.axis, self.radius)
+
+    def reflexive_gap(self, outward: int, points: Array) -> Array:
+        if outward < 0:
+            return super().reflexive_gap(outward, points)
+        return off_axis(points, self.point, self.axis)
+
+    def inner_radius(self, outward: int, points: Array) -> Array:
+        return np.full(len(points), self.radius)
 
     def packed(self) -> Array:
         return pack(self.point, self.axis, self.radius)

@@ -147,5 +147,13 @@ class Sphere(Carrier):
         around = self.centre + self.radius * np.array([-pole, x, y, -x, -y])
         return around, 1.5 * self.radius
 
+    def reflexive_gap(self, outward: int, points: Array) -> Array:
+        if outward < 0:
+            return super().reflexive_gap(outward, points)
+        return norm(points - self.centre)
+
+    def inner_radius(self, outward: int, points: Array) -> Array:
+        return np.full(len(points), self.radius)
+
     def packed(self) -> Array:
         return pack(self.centre, np.array([0.0, 0.0, 1.0]), self.radius)

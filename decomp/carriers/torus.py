@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers.axial import axial_rows, axial_split, round_reach
+from decomp.carriers.axial import axial_rows, axial_split, off_axis, round_reach
 from decomp.carriers.base import Border, Carrier, pack
 from decomp.carriers.charts import Chart, TorusChart
 from decomp.similarity import Similarity
@@ -146,6 +146,19 @@ class Torus(Carrier):
         u, v = np.meshgrid(*(2 * np.pi * np.arange(n) / n for n in (around, tube)))
         grid = self.point(u.ravel(), v.ravel(), *frame(self.axis))
         return grid, 2 * np.pi * self.minor / (8 * finer)
+
+    def reflexive_gap(self, outward: int, points: Array) -> Array:
+        if outward < 0:
+            return off_axis(points, self.centre, self.axis)
+        return np.asarray(self.signed_distance(points) + self.minor)
+
+    def inner_radius(self, outward: int, points: Array) -> Array:
+        if outward > 0:
+            return np.full(len(points), self.minor)
+        off = off_axis(points, self.centre, self.axis)
+        # from the tube's inner side: beyond the tube the normal goes on to the axis
+        with np.errstate(divide="ignore"):  # at the tube's top normals are parallel to the axis
+            return np.asarray(off * self.minor / (self.major - off))
 
     def packed(self) -> Array:
         return pack(self.centre, self.axis, self.major, self.minor)

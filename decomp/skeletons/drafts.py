@@ -87,9 +87,9 @@ def traced_alone(
 ) -> RegionCurves:
     """The curves of one region; arguments and errors as of `traced`."""
     boundary = geometry.regions[number]
-    refuse_untraceable(boundary)
     tell(f"tracing {boundary.name}", number / len(geometry.regions))
     with stage("tracing", boundary.name):
+        refuse_untraceable(boundary)
         return region_curves(geometry.index, boundary, number, samples)
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from decomp.carriers import Carrier, Plane
 from decomp.carriers.base import Border
+from decomp.errors import GeometryError
 from decomp.vectors import Array, cross, dot, norm
 from tests.carriers.kinds import PLACE, ROUNDING, every_carrier, on_carrier, tangents
 
@@ -79,6 +80,28 @@ def test_points_around_a_tip_are_on_it(carrier: Carrier) -> None:
         assert np.abs(carrier.signed_distance(ring)).max() < ROUNDING
         assert norm(ring - carrier.tip) == pytest.approx(0.1)
         assert float(carrier.signed_distance(carrier.tip + carrier.tip_axis)) < 0
+
+
+@every_carrier
+@pytest.mark.parametrize("outward", [1, -1])
+def test_normals_lead_to_the_reflexive_locus(carrier: Carrier, outward: int) -> None:
+    q = on_carrier(carrier)
+    gap = carrier.reflexive_gap(outward, q)
+    assert (carrier.locus is None) <= bool(np.isinf(gap).all())
+    if carrier.locus is None:
+        with pytest.raises(GeometryError, match=carrier.kind):
+            carrier.inner_radius(outward, q)
+        return
+    if np.isinf(gap).all():
+        assert outward < 0
+        return
+    radius = carrier.inner_radius(outward, q)
+    if not carrier.closed or outward > 0:
+        assert (radius > 0).all()
+    # outside a torus only the inner part of the tube faces the axis
+    q, radius = q[radius > 0], radius[radius > 0]
+    ends = q - outward * radius[:, None] * carrier.normal(q)
+    assert carrier.reflexive_gap(outward, ends).max() < 1e-10 * (1 + radius.max())
 
 
 @every_carrier

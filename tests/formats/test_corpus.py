@@ -13,9 +13,9 @@ from decomp.errors import ParseError, UnsupportedError
 from decomp.formats import load
 
 CORPUS = Path(__file__).parents[3] / "shared" / "corpus"
-FOREIGN = re.compile(
-    r"\b(ellipsoid|ellipticcylinder|ellipticcone|extrusion|revolution|polyhedron)\s*\("
-)
+FOREIGN = re.compile(r"\b(ellipsoid|ellipticcone|extrusion|revolution|polyhedron)\s*\(")
+NOW_READ = {"ellipticcyl.geo"}
+"""Files that the index has as not fitting, of kinds that have been added since."""
 INFINITE = "special-consts-expected.csg"
 
 
@@ -24,7 +24,7 @@ def indexed() -> list[tuple[Path, bool]]:
     found = []
     for index in sorted(CORPUS.glob("*/INDEX.md")):
         for name, fits in re.findall(r"^\| (\S+) \|[^|]+\| (yes|no) \|", index.read_text(), re.M):
-            found.append((index.with_name(name), fits == "yes"))
+            found.append((index.with_name(name), fits == "yes" or name in NOW_READ))
     return found
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
-from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind
 from decomp.vectors import Array, Bools
@@ -31,7 +30,7 @@ def locus_gap(
         site = sites[number]
         if site.kind is SiteKind.FACE:
             face = boundary.faces[site.index]
-            gap = reflexive_gap(boundary.carriers[face.carrier], face.outward, points)
+            gap = boundary.carriers[face.carrier].reflexive_gap(face.outward, points)
             result = np.minimum(result, gap)
         elif site.kind is SiteKind.EDGE:
             curve = boundary.edges[site.index].curve
@@ -81,7 +80,7 @@ def past_locus(
             continue
         face = boundary.faces[site.index]
         carrier = boundary.carriers[face.carrier]
-        if np.isfinite(reflexive_gap(carrier, face.outward, feet[:1])).all():
-            most = inner_radius(carrier, face.outward, feet)
+        if np.isfinite(carrier.reflexive_gap(face.outward, feet[:1])).all():
+            most = carrier.inner_radius(face.outward, feet)
             result |= (most > 0) & (radius >= (1 - within) * most)
     return result

@@ -8,7 +8,6 @@ import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.carriers.axial import axial_split
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
 from decomp.sites.site import Site, SiteKind
@@ -197,7 +196,7 @@ def _from_locus(boundary: RegionBoundary, site: Site, points: Array) -> Array:
     """Distance (k,) from a site's reflexive locus."""
     if site.kind is SiteKind.FACE:
         carrier = boundary.carriers[boundary.faces[site.index].carrier]
-        away = np.minimum(*(reflexive_gap(carrier, side, points) for side in (1, -1)))
+        away = np.minimum(*(carrier.reflexive_gap(side, points) for side in (1, -1)))
         if np.isfinite(away).all():
             return away
     if site.kind is SiteKind.EDGE:

@@ -10,7 +10,6 @@ from functools import partial
 import numpy as np
 from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
-from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
 from decomp.sites import SiteIndex
@@ -245,9 +244,9 @@ def _face_radius(incidence: Incidence, face: int, foot: Array) -> float:
     """How far along its normal at a foot (1, 3) a face's reflexive locus is, inf without one."""
     it = incidence.boundary.faces[face]
     carrier = incidence.boundary.carriers[it.carrier]
-    if not np.isfinite(reflexive_gap(carrier, it.outward, foot)).all():
+    if not np.isfinite(carrier.reflexive_gap(it.outward, foot)).all():
         return np.inf
-    return float(inner_radius(carrier, it.outward, foot)[0])
+    return float(carrier.inner_radius(it.outward, foot)[0])
 
 
 def _locus_site(incidence: Incidence, sites: tuple[int, ...], centres: Array) -> int | None:
@@ -270,7 +269,7 @@ def _locus_radius(incidence: Incidence, curve: NormalCurve, number: int, s: Arra
         n = curve.directions(s)
         return np.asarray(circle.radius / np.hypot(n @ circle.x, n @ circle.y))
     face = incidence.boundary.faces[site.index]
-    return inner_radius(incidence.boundary.carriers[face.carrier], face.outward, curve.feet(s))
+    return incidence.boundary.carriers[face.carrier].inner_radius(face.outward, curve.feet(s))
 
 
 def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:

@@ -19,7 +19,6 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.boundary.topology import Convexity, Face, RegionBoundary
 from decomp.carriers import Carrier, Cone, Cylinder, Torus
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.curves.circle import Circle
 from decomp.sites.site import Site, SiteKind, faces_at
 from decomp.skeletons.balls.contacts import Contacts
@@ -155,7 +154,7 @@ class Arcs:
             groups.setdefault((face.carrier, face.outward), set()).add(number)
         for (number, outward), faces in groups.items():
             carrier = self._boundary.carriers[number]
-            gap = float(reflexive_gap(carrier, outward, last.point[None])[0])
+            gap = float(carrier.reflexive_gap(outward, last.point[None])[0])
             of_faces = all(faces & set(self._faces_at(site)) for site in last.sites)
             if gap <= NEAR * self._size and of_faces:
                 return carrier.place
@@ -180,7 +179,7 @@ class Arcs:
         if face is None or not others or len(others) == len(last.sites):
             return None
         carrier = self._boundary.carriers[face.carrier]
-        if float(reflexive_gap(carrier, face.outward, near[None])[0]) > NEAR * self._size:
+        if float(carrier.reflexive_gap(face.outward, near[None])[0]) > NEAR * self._size:
             return None
         axis, centre = _axis(carrier, near), _on_axis(carrier, near)
         if centre is None:
@@ -214,7 +213,7 @@ class Arcs:
 
     def _osculates(self, face: Face, radius: float, point: Array) -> bool:
         carrier = self._boundary.carriers[face.carrier]
-        gap = float(reflexive_gap(carrier, face.outward, point[None])[0])
+        gap = float(carrier.reflexive_gap(face.outward, point[None])[0])
         depth = abs(float(carrier.signed_distance(point)))
         return gap <= self._near and abs(depth - radius) <= self._near
 

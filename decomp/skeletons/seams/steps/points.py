@@ -8,7 +8,6 @@ import numpy as np
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.carriers import Carrier
-from decomp.carriers.reflexive import reflexive_gap
 from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.contacts import ContactFinder
@@ -104,7 +103,7 @@ class SeamPoints:
             carrier = self.boundary.carriers[face.carrier]
 
             def off(point: Array, carrier: Carrier = carrier, outward: int = face.outward) -> float:
-                return float(reflexive_gap(carrier, outward, point[None])[0])
+                return float(carrier.reflexive_gap(outward, point[None])[0])
 
             depth = abs(float(carrier.signed_distance(state.point)))
             near = NEAR_LOCUS * state.radius
