@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from decomp.boundary.topology import Vertex as Vertex
     from decomp.checking.check import Checked as Checked
     from decomp.checking.check import check as check
+    from decomp.csg.model import Ignored as Ignored
     from decomp.csg.model import Model as Model
     from decomp.csg.model import Region as Region
     from decomp.csg.model import model as model
@@ -52,13 +53,19 @@ if TYPE_CHECKING:
     from decomp.meshes.group import Group as Group
     from decomp.meshes.group import GroupKind as GroupKind
     from decomp.meshes.model import TetMesh as TetMesh
+    from decomp.meshes.parts import Parts as Parts
+    from decomp.meshes.reasons import Reason as Reason
+    from decomp.meshes.report import Quality as Quality
     from decomp.meshes.report import Report as Report
     from decomp.meshes.report import report as report
     from decomp.meshing.backends.base import MeshingError as MeshingError
     from decomp.midsurfaces.facing import MidSurface as MidSurface
     from decomp.midsurfaces.facing import mid_surface as mid_surface
     from decomp.outside import with_outside as with_outside
+    from decomp.parity import Parity as Parity
     from decomp.sites import Nearest as Nearest
+    from decomp.sites import Site as Site
+    from decomp.sites import SiteKind as SiteKind
     from decomp.skeletons.model import Cell as Cell
     from decomp.skeletons.model import Certificate as Certificate
     from decomp.skeletons.model import Junction as Junction
@@ -72,7 +79,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "decomp.boundary.topology": ("Convexity", "Edge", "Face", "RegionBoundary", "Vertex"),
-    "decomp.csg.model": ("Model", "Region", "model"),
+    "decomp.csg.model": ("Ignored", "Model", "Region", "model"),
     "decomp.csg.primitives": (
         "Block",
         "Cone",
@@ -109,13 +116,16 @@ _HOMES = {
     ),
     "decomp.ways.mesh": ("mesh",),
     "decomp.outside": ("with_outside",),
-    "decomp.sites": ("Nearest",),
+    "decomp.meshes.parts": ("Parts",),
+    "decomp.meshes.reasons": ("Reason",),
+    "decomp.parity": ("Parity",),
+    "decomp.sites": ("Nearest", "Site", "SiteKind"),
     "decomp.checking.check": ("Checked", "check"),
     "decomp.meshing.backends.base": ("MeshingError",),
     "decomp.meshes.group": ("Group", "GroupKind"),
     "decomp.meshes.model": ("TetMesh",),
     "decomp.meshes.files.reading": ("read",),
-    "decomp.meshes.report": ("Report", "report"),
+    "decomp.meshes.report": ("Quality", "Report", "report"),
     "decomp.ways.skeleton": ("skeleton",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
