@@ -16,6 +16,7 @@ import numpy as np
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites.site import Site
 from decomp.skeletons.balls.balance import balance_all
+from decomp.skeletons.balls.contact_rows import contact_rows
 from decomp.skeletons.balls.raising import raised
 from decomp.skeletons.balls.supports import SupportTable, support_table
 from decomp.tolerance import CONVERGED
@@ -96,9 +97,8 @@ def balanced(
     """The same for rows of a table of supports of a model of a given size."""
     x = np.array(points, dtype=np.float64)
     n, count = which.shape
-    flat = np.array(feet, dtype=np.float64).reshape(n * count, 3)
-    rows = np.ascontiguousarray(which, dtype=np.int64).reshape(-1)
+    found = np.array(feet, dtype=np.float64, order="C").reshape(n, count, 3)
     radius, residual = np.empty(n), np.empty(n)
-    balance_all(table, rows, count, flat, x, radius, residual, size, np.empty((count + 3, 7)))
+    balance_all(table, contact_rows(which, found, size), x, radius, residual)
     converged = np.isfinite(x).all(axis=1) & (residual <= CONVERGED * size)
-    return Equidistant(x, radius, flat.reshape(n, count, 3), residual, converged)
+    return Equidistant(x, radius, found, residual, converged)

@@ -8,6 +8,7 @@ see `halting`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -16,6 +17,7 @@ from decomp.errors import GeometryError
 from decomp.skeletons.balls.probing import JOINED
 from decomp.skeletons.seams.ending.seam_stops import SeamStops
 from decomp.skeletons.seams.halting import Halt, Onwards, Transitions
+from decomp.skeletons.seams.steps.course import Course
 from decomp.skeletons.seams.steps.following import follow
 from decomp.skeletons.seams.steps.points import SeamPoints
 from decomp.skeletons.seams.steps.states import Run, State, Traced
@@ -42,7 +44,6 @@ class SeamTracer:
         self._points, self._stops = points, SeamStops(points)
         self._transitions = Transitions(points, self._stops)
         self._longest = longest * points.size
-        self._probe = points.queries.probe
 
     def trace(self, start: State, stops: Callable[[Array], bool] | None = None) -> Traced:
         """Follow a seam from `start` in the sense of its tangent.
@@ -73,16 +74,23 @@ class SeamTracer:
     ) -> Halt:
         """Follow a seam that began at `start` and has made some steps to where its sites change."""
         points, size = self._points, self._points.size
-        home = np.concatenate([start.point, start.tangent])
-        stretch = Stretch(here.sites, ROOM)
+        stretch = Stretch(here.sites, ROOM, size)
         stretch.put(0, here)
-        given = points.table, self._probe, stretch.which, stretch.track, size
-        rest = self._longest, home, steps, here.sites == start.sites
-        count, why, contact = follow(*given, *rest, LATE * size)
+        course = Course(
+            points.table,
+            points.queries.probe,
+            stretch.track,
+            longest=self._longest,
+            home=np.concatenate([start.point, start.tangent]),
+            closable=int(here.sites == start.sites),
+            made=steps,
+            latest=LATE * size,
+        )
+        count, why, contact = follow(course)
         joined = self._stops.joining(stretch, count) if why == JOINED else None
         if why == JOINED and joined is None:
             # nothing tells where it joined: the place from which it is nearer is the one
-            count, why, contact = follow(*given, *rest, inf)
+            count, why, contact = follow(replace(course, latest=inf))
             joined = self._stops.joining(stretch, count) if why == JOINED else None
         last = stretch.state(count - 1)
         return Halt(here, stretch, count, why, contact, last, joined, node_at)

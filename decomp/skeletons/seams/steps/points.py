@@ -44,12 +44,11 @@ class SeamPoints:
 
     def state(self, sites: Sequence[int], point: Array, feet: Array, along: Array) -> State | None:
         """The point of a seam next to `point`, travelling in the sense of `along`."""
-        at = Stretch(tuple(sites), 1)
-        at.track.feet[:] = feet
-        which = np.array(sites, dtype=np.int64)
+        at = Stretch(tuple(sites), 1, self.size)
+        at.track.contacts.feet[:] = feet
         x, y, z = (float(v) for v in point)
         dx, dy, dz = (float(v) for v in along)
-        if not settle(self.table, which, at.track, 0, x, y, z, dx, dy, dz, self.size, True):
+        if not settle(self.table, at.track, 0, (x, y, z), (dx, dy, dz), True):
             return None
         return at.state(0)
 
