@@ -262,13 +262,12 @@ class RegionAssembler:
         length as it ends there too.
         """
         incidence, slack = self._curves.incidence, AT_END * self._size
-        boundary, region = incidence.boundary, incidence.region
-        touching = contacts(self._index, boundary, region, end, slack)
+        touching = contacts(incidence.context, end, slack)
         touched = {site for group in touching.sites for site in group} | {other, *sites}
         touched |= self._edges_about(touched, touching.radius, end)
         around = set(sites)
         for site in touched:
-            if on_locus(boundary, incidence.sites, [site], end[None], AT_END)[0]:
+            if on_locus(incidence.context, [site], end[None], AT_END)[0]:
                 around.add(site)
         return {(min(a, b), max(a, b)) for a in around for b in touched if a != b}
 

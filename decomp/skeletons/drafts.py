@@ -13,6 +13,7 @@ from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import ContactError
 from decomp.geometry import Geometry
 from decomp.skeletons.assembly import RegionAssembler, RegionParts
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.region_curves import RegionCurves, region_curves
 from decomp.skeletons.model import TrimSurface
 from decomp.skeletons.sheets.drawn_sheets import CrossingError
@@ -88,7 +89,7 @@ def traced_alone(
     boundary = geometry.regions[number]
     tell(f"tracing {boundary.name}", number / len(geometry.regions))
     with stage("tracing", boundary.name):
-        return region_curves(geometry.index, boundary, number, samples)
+        return region_curves(RegionContext(geometry.index, number), samples)
 
 
 def drafted(

@@ -7,6 +7,7 @@ import pytest
 
 import decomp
 from decomp.errors import GeometryError
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.seams import SeamTracer
 from decomp.skeletons.seams.steps.points import SeamPoints
 from decomp.skeletons.seams.steps.states import SeamEnd, State
@@ -19,7 +20,7 @@ CORNER = np.array([1.0, 1.0, 1.0]) / np.sqrt(3.0)
 def points_of(solid: decomp.Solid) -> SeamPoints:
     """Seam points of a model with one region."""
     geometry = decomp.Geometry(solid)
-    return SeamPoints(geometry.index, geometry.regions[0], 0)
+    return SeamPoints(RegionContext(geometry.index, 0))
 
 
 def in_corner(points: SeamPoints, depth: float) -> State:

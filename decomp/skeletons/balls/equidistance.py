@@ -8,17 +8,15 @@ element and not along it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
-from decomp.sites.site import Site
 from decomp.skeletons.balls.balance import balance_all
 from decomp.skeletons.balls.contact_rows import contact_rows
 from decomp.skeletons.balls.raising import raised
-from decomp.skeletons.balls.supports import SupportTable, support_table
+from decomp.skeletons.balls.region_context import RegionContext
+from decomp.skeletons.balls.supports import SupportTable
 from decomp.tolerance import CONVERGED
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -45,37 +43,31 @@ class Equidistant:
     converged: Bools
 
 
-def equidistant(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
-) -> Equidistant:
+def equidistant(context: RegionContext, which: Ints, points: Array, feet: Array) -> Equidistant:
     """Move points to where they are equally far from all their sites.
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: (k, m) sites of each point, m at least 2.
         points: (k, 3), near their elements.
         feet: (k, m, 3), a foot on each site, or close to it.
     """
-    return balanced(support_table(boundary, sites), boundary.diagonal, which, points, feet)
+    return balanced(context.table, context.size, which, points, feet)
 
 
-def placed_between(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
-) -> Equidistant:
+def placed_between(context: RegionContext, which: Ints, points: Array, feet: Array) -> Equidistant:
     """Points at equal distance from two sites each.
 
     Newton's method takes the shortest way there, if it gets there; where it does not, as where the
     distances' gradients are equal, the point over one of the feet is taken.
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: (k, 2) sites of each point.
         points: (k, 3).
         feet: (k, 2, 3), a foot on each site, or close to it.
     """
-    table, size = support_table(boundary, sites), boundary.diagonal
+    table, size = context.table, context.size
     found = balanced(table, size, which, points, feet)
     lost = np.flatnonzero(~found.converged)
     if not len(lost):

@@ -196,13 +196,13 @@ def _trim_piece(
     parts = np.concatenate([[BESIDE, 2 * BESIDE], inner, [1 - 2 * BESIDE, 1 - BESIDE]])
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
-    balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
+    balls = inscribed_balls(incidence.context, q, n)
     round_site = _locus_site(incidence, over.touching, balls.centre)
     if round_site is not None:
         return partial(_locus_radius, incidence, over, round_site)
     far = trim.far[0]
     which: Ints = np.full(len(s), far, dtype=np.int64)
-    feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
+    feet = site_fields(incidence.context, which, balls.centre, balls.foot).foot
     points = balls.centre
     curve = TrimCurve(incidence, over, trim.start, trim.end, far, points, feet)
     points = curve.at(s, balls.radius)
@@ -279,7 +279,7 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
     boundary = incidence.boundary
     for vertex, face, direction in reflex_rays(incidence):
         point = boundary.vertices[vertex].point
-        balls = inscribed_balls(index, boundary, incidence.region, point[None], direction[None])
+        balls = inscribed_balls(incidence.context, point[None], direction[None])
         radius = float(balls.radius[0])
         if radius <= 1e-9 * boundary.diagonal:
             continue
@@ -290,7 +290,7 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
             for e in boundary.vertices[vertex].edges
             if face in boundary.edges[e].faces and e in incidence.edge_site
         ]
-        foot = site_fields(boundary, incidence.sites, which, balls.centre, balls.foot).foot[0]
+        foot = site_fields(incidence.context, which, balls.centre, balls.foot).foot[0]
         exact = _face_radius(incidence, face, point[None])
         if abs(exact - radius) > AT_LOCUS * radius:
             exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)

@@ -298,7 +298,7 @@ class _Search:
         def gap(v: float) -> float:
             at = np.array([v])
             p = self._locus.point(at)
-            field = site_fields(it.boundary, it.sites, which, p, foot)
+            field = site_fields(it.context, which, p, foot)
             return float(field.distance[0] - self._locus.radius(at)[0])
 
         def change(v: float) -> float:
@@ -306,7 +306,7 @@ class _Search:
             h = 1e-6 * self._size
             at = np.array([v - h, v, v + h])
             behind, here, ahead = self._locus.point(at)
-            field = site_fields(it.boundary, it.sites, which, here[None], foot)
+            field = site_fields(it.context, which, here[None], foot)
             low, _, high = self._locus.radius(at)
             return float((field.gradient[0] @ (ahead - behind) - (high - low)) / (2 * h))
 

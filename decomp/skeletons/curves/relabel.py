@@ -43,7 +43,7 @@ def merging_rays(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
         }
         if way is None or not pairs:
             continue
-        balls = inscribed_balls(index, boundary, incidence.region, vertex.point[None], way[None])
+        balls = inscribed_balls(incidence.context, vertex.point[None], way[None])
         radius = float(balls.radius[0])
         if radius <= 1e-6 * boundary.diagonal:
             continue
@@ -84,7 +84,7 @@ def _relabelled(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> Cu
     middle = piece.middle
     which: Ints = np.array([contact[0] for contact in piece.contacts])
     points = np.repeat(middle[None], len(which), axis=0)
-    feet = site_fields(incidence.boundary, incidence.sites, which, points, piece.feet).foot
+    feet = site_fields(incidence.context, which, points, piece.feet).foot
     found = index.nearest(points + TOWARDS * (feet - points)).site
     contacts: list[Contact] = []
     for contact, foot, site in zip(piece.contacts, feet, found.tolist(), strict=True):

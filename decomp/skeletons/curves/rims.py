@@ -198,7 +198,7 @@ class _EdgeRims:
             else:
                 high = middle
         feet, ways, _, _ = self._spheres.balls(self._between(inside, outside, high))
-        ball = inscribed_balls(self._index, it.boundary, it.region, feet, ways)
+        ball = inscribed_balls(it.context, feet, ways)
         if int(ball.site[0]) < 0 or float(norm(ball.foot - feet)[0]) < NEAR * float(ball.radius[0]):
             name = it.sites[self._site].name
             raise GeometryError(
@@ -210,7 +210,7 @@ class _EdgeRims:
 
         def gap(share: float) -> float:
             _, _, radius, centre = self._spheres.balls(self._between(inside, outside, share))
-            field = site_fields(it.boundary, it.sites, ball.site, centre, ball.foot)
+            field = site_fields(it.context, ball.site, centre, ball.foot)
             return float(field.distance[0] - radius[0])
 
         if gap(low) <= 0:

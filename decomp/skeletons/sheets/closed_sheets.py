@@ -58,7 +58,7 @@ class ClosedSheetMaker:
             vertices, local = np.unique(self._boundary.of_face[number], return_inverse=True)
             feet = self._boundary.points[vertices]
             inward = it.inward(number, feet)
-            balls = inscribed_balls(self._index, boundary, it.region, feet, inward)
+            balls = inscribed_balls(it.context, feet, inward)
             others = np.unique(balls.site)
             own = it.face_site[number]
             if len(others) != 1 or others[0] in (-1, own):

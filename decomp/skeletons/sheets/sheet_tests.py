@@ -40,8 +40,7 @@ class SheetTests:
         return np.asarray(on)
 
     def balls(self, feet: Array, inward: Array) -> Balls:
-        region = self._incidence.region
-        return inscribed_balls(self._index, self._incidence.boundary, region, feet, inward)
+        return inscribed_balls(self._incidence.context, feet, inward)
 
     def touches(self, site: int, other: int, feet: Array, inward: Array) -> Bools:
         """Whether feet (k, 3) are on a site and the maximal balls there touch another."""

@@ -38,7 +38,7 @@ class SeamStops:
 
     def __init__(self, points: SeamPoints) -> None:
         self._points, self._size = points, points.size
-        self._walls = Walls(points.boundary, points.index.sites, points.table)
+        self._walls = Walls(points.context)
 
     def crossing(self, stretch: Stretch, count: int, contact: int) -> tuple[int, State] | None:
         """Where a contact's foot leaves its site near the last of `count` rows.

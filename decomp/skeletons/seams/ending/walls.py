@@ -8,14 +8,14 @@ at the wall, while the two sites' distances only touch there.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.boundary.topology import Convexity
 from decomp.carriers.compiled_carriers import normal
 from decomp.kernels.compiled import inner, scalar
 from decomp.kernels.records import Record
-from decomp.sites.site import Site, SiteKind
+from decomp.sites.site import SiteKind
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.balls.supports import SupportTable, support, tangent_at
 from decomp.skeletons.seams.steps.stepping import Track, advance
 from decomp.vectors import Array
@@ -49,10 +49,9 @@ class Wall(Record):
 class Walls:
     """The walls of all sites of a region."""
 
-    def __init__(
-        self, boundary: RegionBoundary, sites: Sequence[Site], table: SupportTable
-    ) -> None:
-        self._boundary, self._sites, self._table = boundary, sites, table
+    def __init__(self, context: RegionContext) -> None:
+        boundary, table = context.boundary, context.table
+        self._boundary, self._sites, self._table = boundary, context.sites, table
         self._of_face: dict[int, list[Wall]] = {}
         self._of_vertex: dict[int, list[Wall]] = {}
         for number, edge in enumerate(boundary.edges):
