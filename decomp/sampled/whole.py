@@ -363,5 +363,5 @@ def tools_of(geometry: Geometry, number: int, owner: Ints, sampled: bool) -> Reg
     own = {
         site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
-    loci = tuple(reflexive_parts(geometry.index, incidence)) if sampled else ()
+    loci = tuple(reflexive_parts(incidence)) if sampled else ()
     return RegionTools(incidence, Placer(incidence, queries), own, loci, sampled)

@@ -136,7 +136,7 @@ def _drafted(
     for number, region in enumerate(curves):
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
         own = float(along[number]), chords, finest
-        maker = RegionAssembler(geometry.index, region, vertices, points, *own)
+        maker = RegionAssembler(region, vertices, points, *own)
         with stage("sheets", geometry.regions[number].name):
             parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])

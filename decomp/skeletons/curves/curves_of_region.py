@@ -13,7 +13,6 @@ from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 from decomp.carriers.reflexive import inner_radius, reflexive_gap
 from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind, faces_at
 from decomp.skeletons.balls.balls import inscribed_balls
 from decomp.skeletons.balls.fields import site_fields
@@ -118,14 +117,14 @@ class LocusRun:
 
 
 def trim_pieces(
-    index: SiteIndex, incidence: Incidence, curves: Sequence[NormalCurve]
+    incidence: Incidence, curves: Sequence[NormalCurve]
 ) -> tuple[list[CurvePiece], list[LocusRun]]:
     """The trims over normal curves: pieces of their own, and runs along reflexive loci."""
     found: list[CurvePiece] = []
     runs: list[LocusRun] = []
-    for number, trims in enumerate(TrimScanner(index, incidence).pieces(curves)):
+    for number, trims in enumerate(TrimScanner(incidence).pieces(curves)):
         for trim in trims:
-            piece = _trim_piece(index, incidence, trim)
+            piece = _trim_piece(incidence, trim)
             if isinstance(piece, CurvePiece):
                 found.append(replace(piece, over=frozenset({number})))
             else:
@@ -186,9 +185,7 @@ def _turn(
     return min(max(at, low), high)
 
 
-def _trim_piece(
-    index: SiteIndex, incidence: Incidence, trim: TrimPiece
-) -> CurvePiece | Callable[[Array], Array]:
+def _trim_piece(incidence: Incidence, trim: TrimPiece) -> CurvePiece | Callable[[Array], Array]:
     """The piece over a part of a normal curve; on a reflexive locus only the balls' radii."""
     over, size = trim.over, incidence.boundary.diagonal
     span = trim.end - trim.start
@@ -273,7 +270,7 @@ def _locus_radius(incidence: Incidence, curve: NormalCurve, number: int, s: Arra
     return inner_radius(incidence.boundary.carriers[face.carrier], face.outward, curve.feet(s))
 
 
-def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
+def ray_pieces(incidence: Incidence) -> list[CurvePiece]:
     """Rims over vertices at which two reentrant edges of a face meet at a reflex angle."""
     found = []
     boundary = incidence.boundary

@@ -94,20 +94,19 @@ def region_curves(context: RegionContext, samples: int) -> RegionCurves:
     Raises:
         GeometryError: a curve cannot be followed; says where.
     """
-    index, boundary = context.index, context.boundary
-    incidence = Incidence(context)
+    boundary, incidence = context.boundary, Incidence(context)
     graph = seam_graph(context, samples=samples)
     over = normal_curves(incidence)
-    parts = reflexive_parts(index, incidence)
-    trims, locus_runs = trim_pieces(index, incidence, over)
+    parts = reflexive_parts(incidence)
+    trims, locus_runs = trim_pieces(incidence, over)
     seams = seam_pieces(incidence, graph.seams)
     loci = reflexive_pieces(parts)
     found = [
         *seams,
         *trims,
-        *ray_pieces(index, incidence),
-        *rim_pieces(index, incidence),
-        *merging_rays(index, incidence),
+        *ray_pieces(incidence),
+        *rim_pieces(incidence),
+        *merging_rays(incidence),
         *loci,
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
@@ -122,7 +121,7 @@ def region_curves(context: RegionContext, samples: int) -> RegionCurves:
     junctions = [node.point for node in graph.nodes if node.radius > 0]
     ends = np.array(fixed).reshape(-1, 3)
     joined = network(boundary.diagonal, ends, found, turns, touches, junctions)
-    pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
+    pieces = with_pairs(incidence, relabelled(incidence, joined.pieces))
     return RegionCurves(
         incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(locus_runs)
     )

@@ -15,7 +15,6 @@ import numpy as np
 
 from decomp.boundary.topology import Convexity
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls import loci
 from decomp.skeletons.balls.balls import inscribed_balls
@@ -77,8 +76,8 @@ class TrimPiece:
 class TrimScanner:
     """Finds the pieces of all trims of one region."""
 
-    def __init__(self, index: SiteIndex, incidence: Incidence) -> None:
-        self._index, self._incidence = index, incidence
+    def __init__(self, incidence: Incidence) -> None:
+        self._incidence = incidence
         self._size = incidence.boundary.diagonal
 
     def pieces(self, curves: Sequence[NormalCurve]) -> list[list[TrimPiece]]:

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.balls import Balls, inscribed_balls
 from decomp.skeletons.curves.incidence import Incidence
@@ -22,8 +21,8 @@ NEARER = 0.3
 class SheetTests:
     """Exact queries about the sheets of one region."""
 
-    def __init__(self, index: SiteIndex, incidence: Incidence) -> None:
-        self._index, self._incidence = index, incidence
+    def __init__(self, incidence: Incidence) -> None:
+        self._incidence, self._index = incidence, incidence.context.index
         self._size = incidence.boundary.diagonal
 
     def name(self, site: int) -> str:
