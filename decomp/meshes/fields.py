@@ -26,6 +26,7 @@ from decomp.meshes.parts import Parts
 from decomp.near import near
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.balls import inscribed_balls
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.cells.owners import site_owners
 from decomp.vectors import Array, Ints, norm
 
@@ -108,7 +109,7 @@ def thickness(geometry: Geometry, mesh: TetMesh, of_tet: Ints) -> Array:
     for number, boundary in enumerate(geometry.regions):
         rows = np.flatnonzero((found.region == number) & (found.distance > 0))
         inward = _inward(geometry, boundary, points[rows], found.foot[rows], sites[rows])
-        balls = inscribed_balls(index, boundary, number, found.foot[rows], inward)
+        balls = inscribed_balls(RegionContext(index, number), found.foot[rows], inward)
         result[rows] = 2 * np.maximum(balls.radius, found.distance[rows])
     return result
 

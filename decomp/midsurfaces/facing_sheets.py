@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 
+from decomp.boundary.topology import RegionBoundary
 from decomp.errors import InputError
-from decomp.skeletons.balls.fields import site_fields
-from decomp.skeletons.curves.incidence import Incidence
+from decomp.sites.site import Site
+from decomp.skeletons.balls.fields import support_fields
+from decomp.skeletons.balls.supports import support_table
 from decomp.skeletons.model import Skeleton
 from decomp.skeletons.sheets.mirror_plane import MirrorPlane
 from decomp.skeletons.sheets.sheet_family import CLEAR
@@ -38,12 +41,14 @@ class MirrorSheet:
 
     Args:
         plane: of symmetry, that it lies in.
-        incidence: of the region.
+        boundary: of the region.
+        sites: all sites of the model.
         site: the edge.
     """
 
     plane: MirrorPlane
-    incidence: Incidence
+    boundary: RegionBoundary
+    sites: Sequence[Site]
     site: int
 
     def place(self, points: Array) -> Array:
@@ -54,7 +59,7 @@ class MirrorSheet:
         across = np.abs(dot(away, self.plane.direction))
         along = norm(away - dot(away, self.plane.direction)[:, None] * self.plane.direction)
         radius = norm(away)
-        lost = radius <= CLEAR * self.incidence.boundary.diagonal
+        lost = radius <= CLEAR * self.boundary.diagonal
         return np.where(lost, np.nan, 2 * np.arctan2(across, along)), radius
 
     def _feet(self, points: Array) -> Array:
@@ -62,14 +67,14 @@ class MirrorSheet:
 
         Over a place where the edge turns away, Newton's method stays there: it is no nearest point.
         """
-        it = self.incidence
-        samples = it.boundary.edges[it.sites[self.site].index].samples
+        table = support_table(self.boundary, self.sites)
+        samples = self.boundary.edges[self.sites[self.site].index].samples
         nearest = nearest_rows(samples, points)
         which = np.full(len(points), self.site, dtype=np.int64)
         found, least = np.zeros_like(points), np.full(len(points), np.inf)
         for step in (0, -ASIDE, ASIDE):
             start = samples[(nearest + step) % len(samples)]
-            field = site_fields(it.boundary, it.sites, which, points, start)
+            field = support_fields(table, which, points, start)
             nearer = field.distance < least
             found[nearer], least[nearer] = field.foot[nearer], field.distance[nearer]
         return found
@@ -82,14 +87,13 @@ def facing_sheets(skeleton: Skeleton) -> list[FacingSheet]:
         InputError: a sheet is one that an edge has with itself, in no plane of symmetry.
     """
     found: list[FacingSheet] = []
-    for number, region in enumerate(skeleton.regions):
-        incidence = Incidence(region.boundary, skeleton.sites, number)
+    for region in skeleton.regions:
         for k, sheet in enumerate(region.sheets):
             surface = skeleton.complex.patches[sheet.patch].surface
             if isinstance(surface, SheetSurface):
                 found.append(surface)
             elif isinstance(surface, MirrorPlane):
-                found.append(MirrorSheet(surface, incidence, sheet.sites[0]))
+                found.append(MirrorSheet(surface, region.boundary, skeleton.sites, sheet.sites[0]))
             else:
                 raise InputError(
                     f"sheet {k} of region {region.name} is one that the edge "

@@ -185,11 +185,11 @@ def _parts(
     for level in range(LEVELS - 1):
         try:
             own = along / FINER**level, 2**level, False
-            return RegionAssembler(geometry.index, curves, at, before, *own).assemble()
+            return RegionAssembler(curves, at, before, *own).assemble()
         except CrossingError:
             continue
     own = along / FINER ** (LEVELS - 1), 2 ** (LEVELS - 1), True
-    return RegionAssembler(geometry.index, curves, at, before, *own).assemble()
+    return RegionAssembler(curves, at, before, *own).assemble()
 
 
 def _speed(curve: object, t: float) -> float:

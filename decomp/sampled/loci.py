@@ -126,7 +126,7 @@ def _united(sites: list[tuple[int, ...]], a: int, b: int) -> tuple[int, ...]:
 def _distance(incidence: Incidence, site: int, point: Array) -> float:
     feet = incidence.feet([site], point[None])[:, 0]
     which = np.array([site])
-    found = site_fields(incidence.boundary, incidence.sites, which, point[None], feet)
+    found = site_fields(incidence.context, which, point[None], feet)
     return float(found.distance[0])
 
 

@@ -115,9 +115,7 @@ class Placer:
             return [group]
         own = [sites[i] for i in group]
         feet = self._it.feet(own, point[None])[0]
-        free = [
-            on_locus(self._it.boundary, self._it.sites, [s], point[None], APART)[0] for s in own
-        ]
+        free = [on_locus(self._it.context, [s], point[None], APART)[0] for s in own]
         radius = float(norm(feet - point).min())
         result: list[list[int]] = []
         for column, foot, loose in zip(group, feet, free, strict=True):
@@ -252,7 +250,7 @@ class Placer:
 
     def _field(self, site: int, x: Array, feet: Array) -> tuple[Array, Array, Array]:
         which = np.full(len(x), site, dtype=np.int64)
-        found = site_fields(self._it.boundary, self._it.sites, which, x, feet)
+        found = site_fields(self._it.context, which, x, feet)
         return found.distance, found.gradient, found.foot
 
 

@@ -20,6 +20,7 @@ from decomp.sampled.patches import RegionWalls, WallMaker, numbered_trims
 from decomp.sampled.placing import Placer
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.queries import region_queries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.cells.partition import face_cells, skeleton_cells
 from decomp.skeletons.certificate.certificate import Certified
 from decomp.skeletons.certificate.evidence import Evidence
@@ -358,9 +359,9 @@ class Described:
 def tools_of(geometry: Geometry, number: int, owner: Ints, sampled: bool) -> RegionTools:
     """The tools of a region, which is sampled or not."""
     queries = region_queries(geometry.index, number)
-    incidence = Incidence(geometry.regions[number], geometry.sites, number)
+    incidence = Incidence(RegionContext(geometry.index, number))
     own = {
         site: int(owner[site]) for site, each in enumerate(geometry.sites) if each.region == number
     }
-    loci = tuple(reflexive_parts(geometry.index, incidence)) if sampled else ()
+    loci = tuple(reflexive_parts(incidence)) if sampled else ()
     return RegionTools(incidence, Placer(incidence, queries), own, loci, sampled)

@@ -13,11 +13,9 @@ from decomp.boundary.topology import Convexity
 from decomp.complex.model import Line, LineKind, Patch
 from decomp.curves.circle import Circle
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.contacts import contacts
 from decomp.skeletons.balls.loci import axis_gap, on_locus
-from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.curves.curve_elements import RayCurve
 from decomp.skeletons.curves.leaving_together import matched
 from decomp.skeletons.curves.passing_close import parted
@@ -69,7 +67,6 @@ class RegionAssembler:
     """Samples a region's curves and triangulates its sheets.
 
     Args:
-        index: queries of the model.
         curves: of the region.
         boundary: its boundary in the complex.
         before: (b, 3) all points of the complex so far, those of the boundary first.
@@ -80,7 +77,6 @@ class RegionAssembler:
 
     def __init__(
         self,
-        index: SiteIndex,
         curves: RegionCurves,
         boundary: BoundaryVertices,
         before: Array,
@@ -88,7 +84,7 @@ class RegionAssembler:
         chords: int = 1,
         finest: bool = False,
     ) -> None:
-        self._index, self._curves, self._boundary = index, curves, boundary
+        self._curves, self._boundary = curves, boundary
         self._tolerance, self._chords, self._finest = tolerance, chords, finest
         self._before = before
         self._new: list[Array] = []
@@ -113,7 +109,7 @@ class RegionAssembler:
         points = self._points()
         kinks = self._kinks(nodes)
         sheets = self._sheets(points, lines, kinks)
-        closed = ClosedSheetMaker(self._index, self._curves.incidence, self._boundary, self._add)
+        closed = ClosedSheetMaker(self._curves.incidence, self._boundary, self._add)
         sheets += closed.sheets({sheet.sites for sheet in sheets}, kinks, points)
         points = self._points()
         parts = RegionParts(
@@ -203,8 +199,8 @@ class RegionAssembler:
             if edge.convexity is Convexity.CONVEX:
                 a, b = sorted(incidence.face_site[f] for f in edge.faces)
                 borders.setdefault((a, b), []).append(self._boundary.of_edge[number])
-        maker = SheetMaker(self._index, incidence, points, self._add, self._finest)
-        own = SelfSheetMaker(self._index, incidence, points, self._add)
+        maker = SheetMaker(incidence, points, self._add, self._finest)
+        own = SelfSheetMaker(incidence, points, self._add)
         sheets = []
         for pair in sorted(borders):
             if pair[0] == pair[1]:
@@ -243,7 +239,7 @@ class RegionAssembler:
         edges = {k for k, site in enumerate(incidence.sites) if site.kind is SiteKind.EDGE}
         every = {pair for piece in curves.pieces for pair in piece.pairs}
         pairs = sorted(pair for pair in every if pair[0] != pair[1] and edges.issuperset(pair))
-        queries = region_queries(self._index, incidence.region)
+        queries = incidence.context.queries
         for number, part in enumerate(curves.points, curves.vertices):
             if number in ends or not pairs:
                 continue
@@ -262,13 +258,12 @@ class RegionAssembler:
         length as it ends there too.
         """
         incidence, slack = self._curves.incidence, AT_END * self._size
-        boundary, region = incidence.boundary, incidence.region
-        touching = contacts(self._index, boundary, region, end, slack)
+        touching = contacts(incidence.context, end, slack)
         touched = {site for group in touching.sites for site in group} | {other, *sites}
         touched |= self._edges_about(touched, touching.radius, end)
         around = set(sites)
         for site in touched:
-            if on_locus(boundary, incidence.sites, [site], end[None], AT_END)[0]:
+            if on_locus(incidence.context, [site], end[None], AT_END)[0]:
                 around.add(site)
         return {(min(a, b), max(a, b)) for a in around for b in touched if a != b}
 

@@ -13,6 +13,7 @@ from decomp.complex.model import Complex, Patch, PatchKind
 from decomp.errors import ContactError
 from decomp.geometry import Geometry
 from decomp.skeletons.assembly import RegionAssembler, RegionParts
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.region_curves import RegionCurves, region_curves
 from decomp.skeletons.model import TrimSurface
 from decomp.skeletons.sheets.drawn_sheets import CrossingError
@@ -90,7 +91,7 @@ def traced_alone(
     tell(f"tracing {boundary.name}", number / len(geometry.regions))
     with stage("tracing", boundary.name):
         refuse_untraceable(boundary)
-        return region_curves(geometry.index, boundary, number, samples)
+        return region_curves(RegionContext(geometry.index, number), samples)
 
 
 def drafted(
@@ -137,7 +138,7 @@ def _drafted(
     for number, region in enumerate(curves):
         vertices = _vertices_of(surface, number, len(region.incidence.boundary.faces))
         own = float(along[number]), chords, finest
-        maker = RegionAssembler(geometry.index, region, vertices, points, *own)
+        maker = RegionAssembler(region, vertices, points, *own)
         with stage("sheets", geometry.regions[number].name):
             parts.append(maker.assemble())
         points = np.concatenate([points, parts[-1].points])

@@ -22,6 +22,7 @@ from decomp.meshing.repairs.smoothing import smoothed
 from decomp.meshing.repairs.splitting import freed, held
 from decomp.meshing.surface.content import contents
 from decomp.meshing.surface.surface import SurfaceMaker
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.region_curves import region_curves
 from decomp.vectors import Array, Ints, direction, vector
 from tests.solids import SOLIDS
@@ -268,7 +269,7 @@ def test_trim_surfaces_of_face_cells_are_exact() -> None:
     """Those over a saddle edge are cut along normals, which end in vertices of the edge."""
     geometry = decomp.Geometry(SOLIDS["unequal tee"].make())
     made = SurfaceMaker(geometry, lambda *_: None).made(0.005 * geometry.diagonal, True)
-    feet = region_curves(geometry.index, geometry.regions[0], 0, 2000).turning_feet()
+    feet = region_curves(RegionContext(geometry.index, 0), 2000).turning_feet()
     assert len(feet) >= 4
     points = made.complex.points
     for foot in feet:

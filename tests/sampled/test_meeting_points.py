@@ -8,12 +8,13 @@ import pytest
 import decomp
 from decomp.sampled.placing import Placer
 from decomp.skeletons.balls.queries import region_queries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.incidence import Incidence
 
 
 def placer_of(solid: decomp.Solid) -> tuple[Placer, dict[str, int]]:
     geometry = decomp.Geometry(solid)
-    incidence = Incidence(geometry.regions[0], geometry.sites, 0)
+    incidence = Incidence(RegionContext(geometry.index, 0))
     names = {site.name: k for k, site in enumerate(geometry.sites)}
     return Placer(incidence, region_queries(geometry.index, 0)), names
 

@@ -10,6 +10,7 @@ import pytest
 import decomp
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.fields import site_fields
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.ending.arriving import arrival
 from tests.solids import SOLIDS
 
@@ -54,6 +55,6 @@ def test_feet_stay_on_the_edge_where_its_carriers_touch(seed: int) -> None:
             start = saddle.point + 1e-8 * rng.normal(size=(50, 3))
             which = np.full(len(start), number, dtype=np.int64)
             points = np.tile(centre, (len(start), 1))
-            found = site_fields(boundary, sites, which, points, start)
+            found = site_fields(RegionContext(geometry.index, 0), which, points, start)
             assert found.distance == pytest.approx(1.0, abs=1e-14)
             assert found.foot == pytest.approx(np.tile(saddle.point, (len(start), 1)), abs=1e-6)

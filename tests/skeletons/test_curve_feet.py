@@ -14,6 +14,7 @@ from decomp.csg.model import model
 from decomp.csg.primitives import Cone, Cylinder
 from decomp.curves.traced import TracedCurve
 from decomp.geometry import Geometry
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.legs import legs
 from decomp.vectors import Array, norm
@@ -50,7 +51,7 @@ def _boundary(geometry: Geometry) -> RegionBoundary:
 
 def test_the_nearest_leg_is_found(geometry: Geometry, edge: Edge) -> None:
     """Samples tell the wrong one of some points, and Newton's method leaves the place of others."""
-    incidence = Incidence(_boundary(geometry), geometry.sites, 0)
+    incidence = Incidence(RegionContext(geometry.index, 0))
     number = next(k for k, e in enumerate(_boundary(geometry).edges) if e.curve is edge.curve)
     points = _axis(edge)
     feet = incidence.feet([incidence.edge_site[number]], points)[:, 0]

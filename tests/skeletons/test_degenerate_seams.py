@@ -12,6 +12,7 @@ import decomp
 from decomp import Cylinder
 from decomp.errors import GeometryError
 from decomp.skeletons.balls.equidistance import equidistant
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.graph import SeamGraph, missed_seams, seam_graph
 from decomp.skeletons.seams.steps.points import SeamPoints
 from decomp.vectors import norm
@@ -26,7 +27,7 @@ ELL = decomp.Block((0, 0, 0), (2, 2, 1), name="whole") - decomp.Block(
 
 def graph_of(solid: decomp.Solid, samples: int = 500) -> tuple[decomp.Geometry, SeamGraph]:
     geometry = decomp.Geometry(solid)
-    return geometry, seam_graph(geometry.index, geometry.regions[0], 0, samples=samples)
+    return geometry, seam_graph(RegionContext(geometry.index, 0), samples=samples)
 
 
 def random_blocks(seed: int) -> decomp.Solid:
@@ -101,15 +102,14 @@ def test_fins_end_where_an_edge_is_osculated() -> None:
 @pytest.mark.parametrize("name", ["bracket", "blind hole", "fichera", "countersink", "slot"])
 def test_feet_are_on_both_sites_where_they_pass_from_one_to_the_other(name: str) -> None:
     geometry, graph = graph_of(SOLIDS[name].make())
-    size, region = geometry.diagonal, geometry.regions[0]
+    size = geometry.diagonal
     for seam in graph.seams:
         assert [p.sites for p in seam.pieces] == [seam.sites[p.start] for p in seam.pieces]
         for k in seam.switches:
             assert (seam.points[k] == seam.points[k - 1]).all() or seam.ends is None
             for sites in (seam.sites[k - 1], seam.sites[k]):
                 found = equidistant(
-                    region,
-                    geometry.sites,
+                    RegionContext(geometry.index, 0),
                     np.array([sites]),
                     seam.points[k][None],
                     seam.feet[k][None],
@@ -125,16 +125,14 @@ def test_blocks_on_a_grid_have_whole_graphs(seed: int) -> None:
     geometry, graph = graph_of(random_blocks(seed), samples=300)
     ends = Counter(end for seam in graph.seams for end in seam.ends or ())
     assert [ends[k] for k in range(len(graph.nodes))] == [len(n.rays) for n in graph.nodes]
-    region = geometry.regions[0]
-    assert not len(missed_seams(geometry.index, region, 0, graph, 1000, 99))
+    assert not len(missed_seams(RegionContext(geometry.index, 0), graph, 1000, 99))
 
 
 def test_a_seam_that_is_left_out_is_missed() -> None:
     geometry, graph = graph_of(SOLIDS["through hole"].make())
-    region = geometry.regions[0]
-    assert not len(missed_seams(geometry.index, region, 0, graph, 2000, 99))
+    assert not len(missed_seams(RegionContext(geometry.index, 0), graph, 2000, 99))
     fewer = SeamGraph(graph.nodes, graph.seams[1:])
-    missed = missed_seams(geometry.index, region, 0, fewer, 2000, 99)
+    missed = missed_seams(RegionContext(geometry.index, 0), fewer, 2000, 99)
     assert len(missed)
     line = graph.seams[0].points
     assert norm(missed[:, None] - line[None]).min(axis=1).max() <= 0.05 * geometry.diagonal

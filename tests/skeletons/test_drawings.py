@@ -9,6 +9,7 @@ import pytest
 
 import decomp
 from decomp.complex.model import LineKind
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.curve_elements import RayCurve
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.leaving_together import matched
@@ -49,7 +50,7 @@ def test_a_vertex_has_no_direction_from_its_edges(rounding: float) -> None:
     """Sheets between two edges that meet turn by their other points there."""
     post = decomp.Block((-1, 1, -3), (1.25, 2, 5), name="post")
     geometry = decomp.Geometry(decomp.Block((0, 0, 0), (4, 4, 4), name="base") | post)
-    incidence = Incidence(geometry.regions[0], geometry.sites, 0)
+    incidence = Incidence(RegionContext(geometry.index, 0))
     names = [site.name for site in geometry.sites]
     one, other = (names.index(f"base.zmin|post.{side}") for side in ("xmax", "ymin"))
     vertex, beside = np.array([0.25, 1.0, 0.0]), np.array([0.05, 1.2, 0.0])

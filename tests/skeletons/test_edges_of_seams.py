@@ -10,6 +10,7 @@ from decomp.csg.primitives import Block, Cone, Cylinder
 from decomp.curves import Line
 from decomp.sites import SiteKind
 from decomp.skeletons.balls.queries import region_queries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.pieces import middle_row
 from decomp.skeletons.curves.sampling import sampled
@@ -48,7 +49,7 @@ def test_seams_between_vertices_are_seen_from_these() -> None:
     off = np.sort(np.abs(points[middle]), axis=1)[:, 1]
     assert middle.any() and off.max() < 1e-4
     assert np.abs(np.abs(feet[middle]) - np.sqrt(0.5)).max() < 1e-12
-    seams = seam_graph(part.index, part.regions[0], 0, samples=2000).seams
+    seams = seam_graph(RegionContext(part.index, 0), samples=2000).seams
     ends = np.array([[seam.points[0], seam.points[-1]] for seam in seams])
     assert len(seams) == 6
     assert np.allclose(norm(ends).max(axis=1), np.sqrt(0.5), atol=1e-9)
@@ -61,7 +62,7 @@ def test_feet_are_not_looked_for_past_an_edges_end() -> None:
     block = Block((0, 0, 0), (5, 4, 2.4), name="block") - Block((4, 0, -1), (2, 3, 2), name="cut")
     part = decomp.Geometry(block | cone)
     boundary = part.regions[0]
-    incidence = Incidence(boundary, part.index.sites, 0)
+    incidence = Incidence(RegionContext(part.index, 0))
     rng = np.random.default_rng(3)
     points = rng.uniform(*boundary.bounds, (4000, 3))
     found = part.nearest(points)

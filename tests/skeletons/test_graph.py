@@ -10,6 +10,7 @@ import pytest
 
 import decomp
 from decomp.skeletons.balls.contacts import contacts
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.curves_of_region import seam_pieces
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.touching import touching_points
@@ -29,7 +30,7 @@ BAR = decomp.Block((0, 0, 0), (2, 1, 1), name="bar")
 
 def graph_of(solid: decomp.Solid) -> tuple[decomp.Geometry, SeamGraph]:
     geometry = decomp.Geometry(solid)
-    return geometry, seam_graph(geometry.index, geometry.regions[0], 0, samples=1000)
+    return geometry, seam_graph(RegionContext(geometry.index, 0), samples=1000)
 
 
 @pytest.mark.parametrize(
@@ -47,7 +48,7 @@ def test_contacts_tell_the_local_structure(
     solid: decomp.Solid, point: tuple[float, float, float], touching: int, leaving: int
 ) -> None:
     geometry = decomp.Geometry(solid)
-    found = contacts(geometry.index, geometry.regions[0], 0, np.array(point, float), 1e-9)
+    found = contacts(RegionContext(geometry.index, 0), np.array(point, float), 1e-9)
     assert len(found.feet) == touching
     assert len(seam_rays(found.gradients)) == leaving
 
@@ -87,7 +88,7 @@ def test_seams_lie_in_the_middle_of_their_contacts(name: str) -> None:
         reach = geometry.nearest(seam.points[inner]).distance
         assert np.abs(reach - seam.radius[inner]).max() <= 2e-10 * size
         middle = seam.points[len(seam.points) // 2]
-        assert len(contacts(geometry.index, geometry.regions[0], 0, middle, 1e-9 * size).feet) >= 3
+        assert len(contacts(RegionContext(geometry.index, 0), middle, 1e-9 * size).feet) >= 3
 
 
 def test_every_ray_of_every_node_is_one_end_of_a_seam() -> None:
@@ -120,7 +121,7 @@ def test_closed_seams_close_wherever_they_begin() -> None:
     for x in (8, 12):
         slot = slot | decomp.Cylinder((x, 0, 10.5), (x, 0, 20.5), 3)
     geometry, graph = graph_of(shaft - slot)
-    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    points = SeamPoints(RegionContext(geometry.index, 0))
     tracer = SeamTracer(points, 0.05)
     begun = 0
     for seam in graph.seams:
@@ -161,7 +162,7 @@ def test_a_seam_that_touches_a_trim_in_its_middle_only() -> None:
         np.concatenate([feet, at_touch, (feet * mirror)[::-1]]),
         (0, 1),
     )
-    incidence = Incidence(geometry.regions[0], geometry.sites, 0)
+    incidence = Incidence(RegionContext(geometry.index, 0))
     (piece,) = seam_pieces(incidence, [whole])
     assert np.abs(piece.middle - touch).max() <= 1e-12
     assert [len(contact) for contact in piece.contacts] == [1, 1, 1]
@@ -190,7 +191,7 @@ def test_seeds_on_trims_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         "decomp.skeletons.seams.graph.seam_seeds", lambda *_: Seeds(point[None], feet[None])
     )
-    assert len(seam_graph(geometry.index, geometry.regions[0], 0).seams) == len(graph.seams)
+    assert len(seam_graph(RegionContext(geometry.index, 0)).seams) == len(graph.seams)
 
 
 def test_seams_end_at_their_nodes_also_between_two_points() -> None:

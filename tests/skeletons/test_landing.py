@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.ending.landing import landing
 from decomp.skeletons.seams.leaving.arcs import Arcs
 from decomp.skeletons.seams.steps.points import SeamPoints
@@ -63,10 +64,10 @@ def test_a_seam_that_crosses_a_locus_does_not_end_there() -> None:
 def test_what_leaves_the_end_of_an_axis() -> None:
     """On the ridge's axis, where its end is as far as its side: one seam, between both edges."""
     geometry = decomp.Geometry(SHAPES["ridge"]())
-    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    points = SeamPoints(RegionContext(geometry.index, 0))
     place = np.array([2.2, 2.2, 2.4])
     touching = points.contacts.at(place, points.tolerances.same)
-    arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
+    arcs = Arcs(points.context)
     _, (ray,) = arcs.leaving(touching, place)
     names = {geometry.index.sites[touching.sites[k][0]].name for k in ray.contacts}
     assert names == {"base.zmax@2|boss.side", "base.zmax|boss.side", "boss.top"}
@@ -96,9 +97,9 @@ def test_what_leaves_the_centre_of_a_ball(
 ) -> None:
     """On a corner one seam, between the three edges; on an edge none, only their sheet."""
     geometry = decomp.Geometry(SHAPES[name]())
-    points = SeamPoints(geometry.index, geometry.regions[0], 0)
+    points = SeamPoints(RegionContext(geometry.index, 0))
     touching = points.contacts.at(np.array(centre), points.tolerances.same)
-    arcs = Arcs(geometry.regions[0], geometry.index.sites, 0, points.queries)
+    arcs = Arcs(points.context)
     found, rays = arcs.leaving(touching, np.array(centre))
     names = {geometry.index.sites[found.sites[k][0]].name for ray in rays for k in ray.contacts}
     assert names == {f"ball.surface|{face}" for face in edges}

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import decomp
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.graph import seam_graph
 from decomp.skeletons.seams.meeting_seams import Meeting, SeamMeetings
 from decomp.skeletons.seams.seam_graph_model import SeamGraph
@@ -22,10 +23,9 @@ def disc(radius: float) -> decomp.Solid:
 
 def traced(solid: decomp.Solid) -> tuple[SeamGraph, list[Meeting]]:
     geometry = decomp.Geometry(solid)
-    boundary = geometry.regions[0]
-    graph = seam_graph(geometry.index, boundary, 0)
+    graph = seam_graph(RegionContext(geometry.index, 0))
     runs = [run for seam in graph.seams for run in seam.runs]
-    return graph, SeamMeetings(geometry.index, boundary, 0).of(runs)
+    return graph, SeamMeetings(RegionContext(geometry.index, 0)).of(runs)
 
 
 def test_seams_that_touch_meet_in_a_point() -> None:

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 import decomp
 from decomp.csg.primitives import Block
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.ending.vertex_fins import at_vertex
 from decomp.skeletons.seams.steps.points import SeamPoints
 from decomp.skeletons.seams.steps.states import State
@@ -21,12 +22,12 @@ def hall() -> SeamPoints:
     x, y, z = CORNER
     shaft = Block.between((x, y, 0), (4, 4, 3), name="shaft")
     geometry = decomp.Geometry(Block((0, 0, 0), (4, 4, z), name="hall") | shaft)
-    return SeamPoints(geometry.index, geometry.regions[0], 0)
+    return SeamPoints(RegionContext(geometry.index, 0))
 
 
 def near(points: SeamPoints, place: ArrayLike, *names: str) -> State:
     """A point near a seam between floor and edges, with feet on their carriers and lines."""
-    known = [site.name for site in points.index.sites]
+    known = [site.name for site in points.context.sites]
     point = np.asarray(place, dtype=np.float64)
     feet = {
         "hall.zmin": [point[0], point[1], 0.0],

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from math import sqrt
 
+from decomp.carriers.compiled_carriers import Triple
 from decomp.kernels.compiled import inner, scalar
+from decomp.skeletons.balls.contact_rows import ContactRows
 from decomp.skeletons.balls.supports import SupportTable, support
 from decomp.vectors import Array, Ints
 
@@ -19,6 +21,13 @@ RANK = 1e-7
 """Directions in which the equations change less than this part of the most are left alone."""
 AT_REST = 4e-16
 """Steps below this part of the size are the last ones; so large is the rounding of distances."""
+
+FREE = 1e-3
+"""Steps may be so much longer, as a part of the size, than half the distance."""
+ORTHOGONAL = 1e-16
+"""Cosine of the angle between columns of J below which they are not rotated: rounding."""
+NOTHING = 1e-290
+"""Products of columns that are no longer normal numbers."""
 
 Balanced = tuple[float, float, float, float, float]
 
@@ -41,7 +50,7 @@ def orthogonalise(work: Array, rows: int) -> None:
                 a += work[k, i] * work[k, i]
                 b += work[k, j] * work[k, j]
                 c += work[k, i] * work[k, j]
-            if abs(c) <= 1e-16 * sqrt(a * b) or abs(c) < 1e-290:
+            if abs(c) <= ORTHOGONAL * sqrt(a * b) or abs(c) < NOTHING:
                 continue
             turned = True
             zeta = (b - a) / (2.0 * c)
@@ -60,130 +69,103 @@ def orthogonalise(work: Array, rows: int) -> None:
 
 @inner
 def measure(
-    table: SupportTable,
-    which: Ints,
-    first: int,
-    count: int,
-    feet: Array,
-    foot: int,
-    x: float,
-    y: float,
-    z: float,
-    work: Array,
+    table: SupportTable, contacts: ContactRows, first: int, x: float, y: float, z: float
 ) -> tuple[float, float, float]:
-    """Put distance and gradient of each support into columns 3 and 4 to 6 of `work`.
+    """Put distance and gradient of each support into columns 3 and 4 to 6 of the scratch.
 
-    `which` is read from row `first` on, `feet` are read and brought up to date from row `foot` on.
+    Contacts are read, and their feet brought up to date, from row `first` on.
 
     Returns:
         Mean, least and greatest distance.
     """
+    which, feet, work = contacts.which, contacts.feet, contacts.work
     least, most, total = 1e300, -1e300, 0.0
-    for c in range(count):
-        row = foot + c
+    for c in range(contacts.count):
+        row = first + c
         away, gx, gy, gz, qx, qy, qz = support(
-            table, which[first + c], x, y, z, feet[row, 0], feet[row, 1], feet[row, 2]
+            table, which[row], x, y, z, feet[row, 0], feet[row, 1], feet[row, 2]
         )
         feet[row, 0], feet[row, 1], feet[row, 2] = qx, qy, qz
         work[c, 3], work[c, 4], work[c, 5], work[c, 6] = away, gx, gy, gz
         least, most, total = min(least, away), max(most, away), total + away
-    return total / count, least, most
+    return total / contacts.count, least, most
+
+
+@inner
+def differences(work: Array, rows: int) -> None:
+    """Put J into the scratch, and rotate its columns until they are orthogonal."""
+    for k in range(rows):
+        for j in range(3):
+            work[k, j] = work[k + 1, 4 + j] - work[0, 4 + j]
+    orthogonalise(work, rows)
+
+
+@inner
+def newton_step(work: Array, rows: int) -> Triple:
+    """The shortest step that solves the linearised equations, from J with orthogonal columns."""
+    most = 0.0
+    for j in range(3):
+        square = 0.0
+        for k in range(rows):
+            square += work[k, j] * work[k, j]
+        most = max(most, square)
+    sx, sy, sz = 0.0, 0.0, 0.0
+    for j in range(3):
+        square, part = 0.0, 0.0
+        for k in range(rows):
+            square += work[k, j] * work[k, j]
+            part += work[k, j] * (work[k + 1, 3] - work[0, 3])
+        if square > RANK * RANK * most:
+            part = -part / square
+            sx += part * work[rows, j]
+            sy += part * work[rows + 1, j]
+            sz += part * work[rows + 2, j]
+    return sx, sy, sz
 
 
 @inner
 def balance(
-    table: SupportTable,
-    which: Ints,
-    first: int,
-    count: int,
-    feet: Array,
-    foot: int,
-    x: float,
-    y: float,
-    z: float,
-    size: float,
-    work: Array,
+    table: SupportTable, contacts: ContactRows, first: int, x: float, y: float, z: float
 ) -> Balanced:
-    """Move a point to where it is equally far from `count` supports.
+    """Move a point to where its supports are equally far, from where feet close by are known.
 
     Args:
-        table: supports.
-        which: of them, from row `first` on.
-        first, count: rows of this point.
-        feet: a foot on each, or close to it, from row `foot` on; brought up to date.
-        foot: first row of feet.
+        table: of supports.
+        contacts: the point's, from row `first` on. The scratch is left with J's columns and V of
+            the last step, and with the distances and gradients at the result.
+        first: the row.
         x, y, z: the point.
-        size: of the model.
-        work: scratch (count + 3, 7); left with J's columns and V of the last step, and with the
-            distances and gradients at the result.
 
     Returns:
         The point, its mean distance, and the largest difference of distances.
     """
-    rows = count - 1
+    work, rows, size = contacts.work, contacts.count - 1, contacts.size
     for _ in range(STEPS):
-        _, least, greatest = measure(table, which, first, count, feet, foot, x, y, z, work)
-        for k in range(rows):
-            for j in range(3):
-                work[k, j] = work[k + 1, 4 + j] - work[0, 4 + j]
-        orthogonalise(work, rows)
+        _, least, greatest = measure(table, contacts, first, x, y, z)
+        differences(work, rows)
         if greatest - least <= AT_REST * max(size, abs(x), abs(y), abs(z)):
             # where the feet coincide gradients differ by rounding, and steps would be at random
             break
-        most = 0.0
-        for j in range(3):
-            square = 0.0
-            for k in range(rows):
-                square += work[k, j] * work[k, j]
-            most = max(most, square)
-        sx, sy, sz = 0.0, 0.0, 0.0
-        for j in range(3):
-            square, part = 0.0, 0.0
-            for k in range(rows):
-                square += work[k, j] * work[k, j]
-                part += work[k, j] * (work[k + 1, 3] - work[0, 3])
-            if square > RANK * RANK * most:
-                part = -part / square
-                sx += part * work[rows, j]
-                sy += part * work[rows + 1, j]
-                sz += part * work[rows + 2, j]
+        sx, sy, sz = newton_step(work, rows)
         length = sqrt(sx * sx + sy * sy + sz * sz)
         # a step beyond the distance itself has left the neighbourhood where the sites are known
-        limit = 0.5 * abs(least) + 1e-3 * size
+        limit = 0.5 * abs(least) + FREE * size
         scale = limit / length if length > limit else 1.0
         x, y, z = x + scale * sx, y + scale * sy, z + scale * sz
         if length <= AT_REST * size:
             break
-    mean, least, greatest = measure(table, which, first, count, feet, foot, x, y, z, work)
+    mean, least, greatest = measure(table, contacts, first, x, y, z)
     return x, y, z, mean, greatest - least
 
 
 @scalar
 def balance_all(
-    table: SupportTable,
-    which: Ints,
-    count: int,
-    feet: Array,
-    points: Array,
-    radius: Array,
-    residual: Array,
-    size: float,
-    work: Array,
+    table: SupportTable, contacts: ContactRows, points: Array, radius: Array, residual: Array
 ) -> None:
-    """The same for points (k, 3), with supports and feet in k * count rows; all are replaced."""
+    """The same for points (k, 3), which are replaced; radius and residual (k,) are filled in."""
     for i in range(len(points)):
         x, y, z, mean, gap = balance(
-            table,
-            which,
-            i * count,
-            count,
-            feet,
-            i * count,
-            points[i, 0],
-            points[i, 1],
-            points[i, 2],
-            size,
-            work,
+            table, contacts, i * contacts.count, points[i, 0], points[i, 1], points[i, 2]
         )
         points[i, 0], points[i, 1], points[i, 2] = x, y, z
         radius[i], residual[i] = mean, gap

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
 from decomp.errors import GeometryError
 from decomp.sites import SiteIndex
 from decomp.skeletons.balls.probing import TOWARDS
-from decomp.skeletons.balls.queries import RegionQueries, region_queries
-from decomp.skeletons.balls.shrinking import OSCULATES, RESTLESS, SIZELESS, TOUCHES, shrink
+from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.balls.region_context import RegionContext
+from decomp.skeletons.balls.shrinking import OSCULATES, RESTLESS, SIZELESS, TOUCHES, Shrunk, shrink
 from decomp.vectors import Array, Ints
 
 
@@ -40,16 +40,14 @@ class Balls:
     foot: Array
 
 
-def inscribed_balls(
-    index: SiteIndex, boundary: RegionBoundary, region: int, points: Array, inward: Array
-) -> Balls:
+def inscribed_balls(context: RegionContext, points: Array, inward: Array) -> Balls:
     """The maximal balls that touch the boundary at points (k, 3) with inward unit normals (k, 3).
 
     Raises:
         GeometryError: there is no ball at a point, or it is not found; says where.
     """
-    queries = region_queries(index, region)
-    balls, state = balls_at(queries, points, inward, boundary.diagonal)
+    queries = context.queries
+    balls, state = balls_at(queries, points, inward, context.size)
     for bad, what in ((SIZELESS, "has no size"), (RESTLESS, "does not come to rest")):
         if (state == bad).any():
             raise GeometryError(
@@ -72,13 +70,15 @@ def balls_at(
     points = np.ascontiguousarray(points, dtype=np.float64)
     inward = np.ascontiguousarray(inward, dtype=np.float64)
     n = len(points)
-    radius, foot = np.empty(n), np.empty((n, 3))
-    state, candidates = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-    start = np.full(n, size)
-    shrink(queries.probe, points, inward, size, start, radius, foot, candidates, state)
-    foot[state == OSCULATES] = points[state == OSCULATES]
-    site = queries.kinds(candidates)
-    return Balls(points + radius[:, None] * inward, radius, site, foot), state
+    found = Shrunk(
+        np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
+    )
+    shrink(queries.probe, points, inward, size, found)
+    osculating = found.state == OSCULATES
+    found.feet[osculating] = points[osculating]
+    site = queries.kinds(found.candidates)
+    centre = points + found.radius[:, None] * inward
+    return Balls(centre, found.radius, site, found.feet), found.state
 
 
 def largest_gap(index: SiteIndex, region: int, centre: Array, radius: Array) -> float:

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.boundary.topology import Convexity
 from decomp.kernels.compiled import scalar
-from decomp.sites import SiteIndex
 from decomp.sites.measure import count_of
 from decomp.sites.octree import locate
-from decomp.sites.site import Site, SiteKind
+from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.fields import support_fields
 from decomp.skeletons.balls.probing import TOWARDS, Probe, candidate_foot
-from decomp.skeletons.balls.queries import region_queries
-from decomp.skeletons.balls.supports import support_table
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.vectors import Array, norm
 
 
@@ -37,24 +35,20 @@ class Contacts:
     gradients: Array
 
 
-def contacts(
-    index: SiteIndex, boundary: RegionBoundary, region: int, point: Array, slack: float
-) -> Contacts:
+def contacts(context: RegionContext, point: Array, slack: float) -> Contacts:
     """Find every site whose foot is no more than `slack` farther than the nearest."""
-    return ContactFinder(index, boundary, region).at(point, slack)
+    return ContactFinder(context).at(point, slack)
 
 
 class ContactFinder:
     """Finds contacts in one region."""
 
-    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
-        self._boundary = boundary
-        self._sites = index.sites
-        self._table = support_table(boundary, index.sites)
-        self._queries = region_queries(index, region)
+    def __init__(self, context: RegionContext) -> None:
+        self._boundary, self._sites = context.boundary, context.sites
+        self._table, self._queries = context.table, context.queries
         self._probe = self._queries.probe
-        self._near = _neighbours(index.sites, boundary, region)
-        self._parts = _parts(index.sites, boundary, region)
+        self._near = _neighbours(context)
+        self._parts = _parts(context)
         self._feet = np.empty((count_of(self._probe.sites), 3))
 
     def neighbours(self, site: int) -> tuple[int, ...]:
@@ -161,23 +155,24 @@ def close_feet(probe: Probe, x: float, y: float, z: float, reach: float, feet: A
     return count
 
 
-def _parts(sites: Sequence[Site], boundary: RegionBoundary, region: int) -> set[int]:
+def _parts(context: RegionContext) -> set[int]:
     """The edges that are not all in which their carriers meet: feet can be on another one."""
     found: dict[tuple[int, ...], list[int]] = {}
-    for number, site in enumerate(sites):
-        if site.region == region and site.kind is SiteKind.EDGE:
-            carriers = tuple(sorted(boundary.edges[site.index].carriers))
+    for number, site in enumerate(context.sites):
+        if site.region == context.region and site.kind is SiteKind.EDGE:
+            carriers = tuple(sorted(context.boundary.edges[site.index].carriers))
             found.setdefault(carriers, []).append(number)
     return {number for own in found.values() if len(own) > 1 for number in own}
 
 
-def _neighbours(
-    sites: Sequence[Site], boundary: RegionBoundary, region: int
-) -> dict[int, tuple[int, ...]]:
+def _neighbours(context: RegionContext) -> dict[int, tuple[int, ...]]:
     """For each site those that can share a foot with it."""
     number: dict[tuple[SiteKind, int], int] = {
-        (site.kind, site.index): k for k, site in enumerate(sites) if site.region == region
+        (site.kind, site.index): k
+        for k, site in enumerate(context.sites)
+        if site.region == context.region
     }
+    boundary = context.boundary
     pairs: set[tuple[int, int]] = set()
 
     def join(a: int | None, b: int | None) -> None:

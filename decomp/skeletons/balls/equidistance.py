@@ -8,16 +8,15 @@ element and not along it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
-from decomp.sites.site import Site
 from decomp.skeletons.balls.balance import balance_all
+from decomp.skeletons.balls.contact_rows import contact_rows
 from decomp.skeletons.balls.raising import raised
-from decomp.skeletons.balls.supports import SupportTable, support_table
+from decomp.skeletons.balls.region_context import RegionContext
+from decomp.skeletons.balls.supports import SupportTable
 from decomp.tolerance import CONVERGED
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -44,37 +43,31 @@ class Equidistant:
     converged: Bools
 
 
-def equidistant(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
-) -> Equidistant:
+def equidistant(context: RegionContext, which: Ints, points: Array, feet: Array) -> Equidistant:
     """Move points to where they are equally far from all their sites.
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: (k, m) sites of each point, m at least 2.
         points: (k, 3), near their elements.
         feet: (k, m, 3), a foot on each site, or close to it.
     """
-    return balanced(support_table(boundary, sites), boundary.diagonal, which, points, feet)
+    return balanced(context.table, context.size, which, points, feet)
 
 
-def placed_between(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
-) -> Equidistant:
+def placed_between(context: RegionContext, which: Ints, points: Array, feet: Array) -> Equidistant:
     """Points at equal distance from two sites each.
 
     Newton's method takes the shortest way there, if it gets there; where it does not, as where the
     distances' gradients are equal, the point over one of the feet is taken.
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: (k, 2) sites of each point.
         points: (k, 3).
         feet: (k, 2, 3), a foot on each site, or close to it.
     """
-    table, size = support_table(boundary, sites), boundary.diagonal
+    table, size = context.table, context.size
     found = balanced(table, size, which, points, feet)
     lost = np.flatnonzero(~found.converged)
     if not len(lost):
@@ -96,9 +89,8 @@ def balanced(
     """The same for rows of a table of supports of a model of a given size."""
     x = np.array(points, dtype=np.float64)
     n, count = which.shape
-    flat = np.array(feet, dtype=np.float64).reshape(n * count, 3)
-    rows = np.ascontiguousarray(which, dtype=np.int64).reshape(-1)
+    found = np.array(feet, dtype=np.float64, order="C").reshape(n, count, 3)
     radius, residual = np.empty(n), np.empty(n)
-    balance_all(table, rows, count, flat, x, radius, residual, size, np.empty((count + 3, 7)))
+    balance_all(table, contact_rows(which, found, size), x, radius, residual)
     converged = np.isfinite(x).all(axis=1) & (residual <= CONVERGED * size)
-    return Equidistant(x, radius, flat.reshape(n, count, 3), residual, converged)
+    return Equidistant(x, radius, found, residual, converged)

@@ -7,7 +7,6 @@ to say.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +15,9 @@ from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.carriers.compiled_carriers import carrier_table
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
-from decomp.sites.site import Site
 from decomp.skeletons.balls.balance import fields_at
-from decomp.skeletons.balls.supports import SupportTable, curve_support, support_table
+from decomp.skeletons.balls.region_context import RegionContext
+from decomp.skeletons.balls.supports import SupportTable, curve_support
 from decomp.vectors import Array, Ints, dot
 
 
@@ -38,19 +37,16 @@ class Field:
     foot: Array
 
 
-def site_fields(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Ints, points: Array, feet: Array
-) -> Field:
+def site_fields(context: RegionContext, which: Ints, points: Array, feet: Array) -> Field:
     """Distance from site `which[i]` at points[i].
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: site of each point (k,).
         points: (k, 3).
         feet: a foot of each point or of one close by (k, 3), from which curved edges are searched.
     """
-    return support_fields(support_table(boundary, sites), which, points, feet)
+    return support_fields(context.table, which, points, feet)
 
 
 def support_fields(table: SupportTable, which: Ints, points: Array, feet: Array) -> Field:

@@ -6,25 +6,23 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
 from decomp.curves.circle import Circle
-from decomp.sites.site import Site, SiteKind
+from decomp.sites.site import SiteKind
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.vectors import Array, Bools
 
 
-def locus_gap(
-    boundary: RegionBoundary, sites: Sequence[Site], which: Sequence[int], points: Array
-) -> Array:
+def locus_gap(context: RegionContext, which: Sequence[int], points: Array) -> Array:
     """Distance (k,) of points (k, 3) from the nearest reflexive locus of some sites.
 
     That of a face is its carrier's, that of an arc of a circle the circle's axis.
 
     Args:
-        boundary: of the region.
-        sites: all sites, into which `which` points.
+        context: of the region.
         which: sites.
         points: (k, 3).
     """
+    boundary, sites = context.boundary, context.sites
     result = np.full(len(points), np.inf)
     for number in which:
         site = sites[number]
@@ -46,8 +44,7 @@ def axis_gap(circle: Circle, points: Array) -> Array:
 
 
 def on_locus(
-    boundary: RegionBoundary,
-    sites: Sequence[Site],
+    context: RegionContext,
     which: Sequence[int],
     points: Array,
     within: float,
@@ -56,13 +53,12 @@ def on_locus(
 
     They are no farther from one than `within`, a part of the region's size.
     """
-    gap = locus_gap(boundary, sites, which, points)
-    return np.asarray(gap <= within * boundary.diagonal)
+    gap = locus_gap(context, which, points)
+    return np.asarray(gap <= within * context.size)
 
 
 def past_locus(
-    boundary: RegionBoundary,
-    sites: Sequence[Site],
+    context: RegionContext,
     which: Sequence[int],
     feet: Array,
     radius: Array,
@@ -73,6 +69,7 @@ def past_locus(
     No ball is larger: along an edge a face's carrier is on one side at least. But one over a point
     where the edge runs along the carrier's strongest curvature comes to rest a little late.
     """
+    boundary, sites = context.boundary, context.sites
     result = np.zeros(len(feet), dtype=np.bool_)
     for number in which:
         site = sites[number]

@@ -19,8 +19,8 @@ from decomp.sites.occupancy import OccupancyTree, label_at
 from decomp.sites.octree import locate
 from decomp.sites.site_bounds import edge_foot
 from decomp.sites.site_table import SiteTable
+from decomp.skeletons.balls.contact_rows import ContactRows
 from decomp.tolerance import TOUCHING
-from decomp.vectors import Array
 
 TOWARDS = 0.3
 """How far towards a foot a query is made to see whether the foot is on the boundary."""
@@ -90,9 +90,10 @@ def candidate_foot(probe: Probe, k: int, x: float, y: float, z: float) -> Triple
 
 @inner
 def another(
-    probe: Probe, x: float, y: float, z: float, radius: float, feet: Array, first: int, count: int
+    probe: Probe, contacts: ContactRows, first: int, x: float, y: float, z: float, radius: float
 ) -> bool:
-    """Whether a ball touches the boundary at another foot than `count` known ones."""
+    """Whether a ball touches the boundary elsewhere than at its contacts, from row `first` on."""
+    feet = contacts.feet
     reach = (radius + probe.slack) ** 2
     leaf = locate(probe.candidates.tree, x, y, z)
     if leaf < 0:
@@ -102,7 +103,7 @@ def another(
         if (qx - x) ** 2 + (qy - y) ** 2 + (qz - z) ** 2 > reach:
             continue
         known = False
-        for c in range(count):
+        for c in range(contacts.count):
             dx, dy, dz = qx - feet[first + c, 0], qy - feet[first + c, 1], qz - feet[first + c, 2]
             if dx * dx + dy * dy + dz * dz <= (APART * radius) ** 2:
                 known = True

@@ -7,11 +7,12 @@ the place, so d(q + r n) - r falls, its root can be bracketed, and the search ca
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf
 
 import numpy as np
 
 from decomp.kernels.compiled import inner, scalar
+from decomp.skeletons.balls.fields import support_fields
 from decomp.skeletons.balls.supports import FACE, SupportTable, support
 from decomp.tolerance import CONVERGED
 from decomp.vectors import Array, Bools, Ints, norm
@@ -19,6 +20,10 @@ from decomp.vectors import Array, Bools, Ints, norm
 STEPS = 200
 AT_REST = 4e-16
 """Steps below this part of the size are the last ones."""
+LEAST = 1e-9
+"""The first radius is at least this part of the size."""
+UNIT = 0.5
+"""Gradients are of unit length, or 0 at a point of an edge or a vertex itself."""
 
 
 @inner
@@ -29,8 +34,7 @@ def grown(
     n: Array,
     start: float,
     size: float,
-    feet: Array,
-    i: int,
+    near: Array,
 ) -> float:
     """The radius of the ball at q along n that touches another support; -1 if there is none.
 
@@ -42,23 +46,14 @@ def grown(
         q, n: (3,), where the ball stands and its unit normal.
         start: a first radius.
         size: of the region; balls are no larger.
-        feet: (k, 3), of which row i holds a foot on the other support near by; replaced.
-        i: the row.
+        near: (3,), a foot on the other support near by; replaced.
     """
     low, high = 0.0, inf
-    r = min(max(start, 1e-9 * size), size)
+    r = min(max(start, LEAST * size), size)
     for _ in range(STEPS):
-        away, gx, gy, gz, hx, hy, hz = support(
-            table,
-            other,
-            q[0] + r * n[0],
-            q[1] + r * n[1],
-            q[2] + r * n[2],
-            feet[i, 0],
-            feet[i, 1],
-            feet[i, 2],
-        )
-        feet[i, 0], feet[i, 1], feet[i, 2] = hx, hy, hz
+        x, y, z = q[0] + r * n[0], q[1] + r * n[1], q[2] + r * n[2]
+        away, gx, gy, gz, hx, hy, hz = support(table, other, x, y, z, near[0], near[1], near[2])
+        near[0], near[1], near[2] = hx, hy, hz
         off = away - r
         if off == 0.0:
             return r
@@ -77,52 +72,34 @@ def grown(
         if abs(step) <= AT_REST * size or high - low <= AT_REST * size:
             break
     if r <= CONVERGED * size:
-        away, _, _, _, _, _, _ = support(
-            table, other, q[0], q[1], q[2], feet[i, 0], feet[i, 1], feet[i, 2]
-        )
+        away, _, _, _, _, _, _ = support(table, other, q[0], q[1], q[2], near[0], near[1], near[2])
         if away < -CONVERGED * size:
             return -1.0
     return r
 
 
 @scalar
-def raise_all(
+def grow_all(
     table: SupportTable,
     which: Ints,
     size: float,
-    points: Array,
+    at: Array,
+    start: Array,
     feet: Array,
-    touched: Array,
-    placed: Array,
     radius: Array,
-    q: Array,
-    n: Array,
 ) -> None:
-    """Fill in `placed` (k, 3) and `radius` (k,), which is -1 where there is no such point.
+    """Fill in radii (k,) of balls that touch supports (k,), see `grown`.
 
     Args:
-        table: of supports.
-        which: of them (k, 2); balls stand on the first and touch the second.
-        size: of the region; balls are no larger.
-        points: (k, 3).
-        feet, touched: (k, 3), known ones on the first and second; replaced.
-        placed, radius: filled in.
-        q, n: scratch (3,).
+        table, size: as there.
+        which: supports (k,).
+        at: (k, 2, 3), where the balls stand, and unit normals.
+        start: first radii (k,).
+        feet: (k, 3), near by on the supports; replaced.
+        radius: filled in.
     """
-    for i in range(len(points)):
-        x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        own = which[i, 0]
-        away, gx, gy, gz, fx, fy, fz = support(
-            table, own, x, y, z, feet[i, 0], feet[i, 1], feet[i, 2]
-        )
-        feet[i, 0], feet[i, 1], feet[i, 2] = fx, fy, fz
-        q[0], q[1], q[2], n[0], n[1], n[2] = fx, fy, fz, gx, gy, gz
-        radius[i] = -1.0
-        length = sqrt(gx * gx + gy * gy + gz * gz)
-        if length > 0.5 and (table.kinds[own] == FACE or away > 0.0):
-            radius[i] = grown(table, which[i, 1], q, n, abs(away), size, touched, i)
-        for j in range(3):
-            placed[i, j] = q[j] + radius[i] * n[j]
+    for i in range(len(at)):
+        radius[i] = grown(table, which[i], at[i, 0], at[i, 1], start[i], size, feet[i])
 
 
 def raised(
@@ -146,32 +123,29 @@ def raised(
     found, gap = np.array(points), np.full(len(points), np.inf)
     touched = np.array(feet, dtype=np.float64)
     for order in ((0, 1), (1, 0)):
-        pair = np.ascontiguousarray(which[:, order], dtype=np.int64)
-        own, far_feet = (np.array(feet[:, k], dtype=np.float64) for k in order)
-        placed, radius = np.empty_like(points), np.empty(len(points))
-        scratch = np.empty((2, 3))
-        raise_all(table, pair, size, points, own, far_feet, placed, radius, *scratch)
+        own, other = (np.ascontiguousarray(which[:, k], dtype=np.int64) for k in order)
+        under = support_fields(table, own, points, feet[:, order[0]])
+        far_feet = np.array(feet[:, order[1]], dtype=np.float64)
+        # inside the region, or beside a face: its distance has a sign
+        stands = np.flatnonzero(
+            (norm(under.gradient) > UNIT) & ((table.kinds[own] == FACE) | (under.distance > 0.0))
+        )
+        radius = np.full(len(points), -1.0)
+        radius[stands], far_feet[stands] = _grown_at(
+            table,
+            size,
+            other[stands],
+            np.stack([under.foot[stands], under.gradient[stands]], axis=1),
+            np.abs(under.distance[stands]),
+            far_feet[stands],
+        )
+        placed = under.foot + radius[:, None] * under.gradient
         far = np.where(radius >= 0.0, norm(placed - points), np.inf)
         better = np.flatnonzero(far < gap)
         found[better], gap[better] = placed[better], far[better]
-        touched[better, order[0]], touched[better, order[1]] = own[better], far_feet[better]
+        touched[better, order[0]] = under.foot[better]
+        touched[better, order[1]] = far_feet[better]
     return found, touched, np.isfinite(gap)
-
-
-@scalar
-def grow_all(
-    table: SupportTable,
-    others: Ints,
-    size: float,
-    q: Array,
-    n: Array,
-    guess: Array,
-    feet: Array,
-    radius: Array,
-) -> None:
-    """Fill in radii (k,) of balls at q along n (k, 3) that touch others (k,), see `grown`."""
-    for i in range(len(q)):
-        radius[i] = grown(table, others[i], q[i], n[i], guess[i], size, feet, i)
 
 
 def touching_radii(
@@ -187,9 +161,22 @@ def touching_radii(
         guess: (k,), first radii.
         feet: (k, 3), on the supports near where they are touched.
     """
-    radius = np.empty(len(q))
-    points, ways = (np.ascontiguousarray(a, dtype=np.float64) for a in (q, n))
-    start = np.ascontiguousarray(guess, dtype=np.float64)
-    which = np.ascontiguousarray(others, dtype=np.int64)
-    grow_all(table, which, size, points, ways, start, np.array(feet, np.float64), radius)
+    radius, _ = _grown_at(table, size, others, np.stack([q, n], axis=1), guess, feet)
     return np.where(radius < 0.0, np.nan, radius)
+
+
+def _grown_at(
+    table: SupportTable, size: float, which: Ints, at: Array, start: Array, feet: Array
+) -> tuple[Array, Array]:
+    """Radii (k,), and the feet (k, 3) where they touch, see `grow_all`."""
+    radius, touched = np.empty(len(at)), np.array(feet, dtype=np.float64)
+    grow_all(
+        table,
+        np.ascontiguousarray(which, dtype=np.int64),
+        size,
+        np.ascontiguousarray(at, dtype=np.float64),
+        np.ascontiguousarray(start, dtype=np.float64),
+        touched,
+        radius,
+    )
+    return radius, touched

@@ -44,7 +44,7 @@ def coverage(evidence: Evidence, balls: int, seed: int) -> Worst:
     parts = [*boundary_samples(evidence, balls, rng), *edge_samples(evidence, balls, rng)]
     points = np.concatenate([points for points, _ in parts])
     inward = np.concatenate([inward for _, inward in parts])
-    found = inscribed_balls(evidence.index, evidence.boundary, evidence.region, points, inward)
+    found = inscribed_balls(evidence.context, points, inward)
     away = triangle_distance(skeleton_tree(evidence), found.centre)
     k = int(np.argmax(away))
     site = int(found.site[k])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from decomp.boundary.topology import RegionBoundary
 from decomp.complex.model import Complex
 from decomp.sites import SiteIndex
 from decomp.sites.site import Site
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.model import Cell, Reflexive, Sheet, Skeleton
 from decomp.vectors import Array, Ints
 
@@ -55,6 +57,11 @@ class Evidence:
             parts.cells,
             parts.face_cells,
         )
+
+    @cached_property
+    def context(self) -> RegionContext:
+        """Of the region."""
+        return RegionContext(self.index, self.region)
 
     @property
     def boundary(self) -> RegionBoundary:

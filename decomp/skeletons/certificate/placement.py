@@ -175,7 +175,7 @@ def _nearest_samples(samples: Array, points: Array, towards: Array) -> Ints:
 def _distance(evidence: Evidence, number: int, points: Array, feet: Array) -> Array:
     """Distance (k,) of points from a site with feet nearby."""
     which = np.full(len(points), number, dtype=np.int64)
-    return site_fields(evidence.boundary, evidence.sites, which, points, feet).distance
+    return site_fields(evidence.context, which, points, feet).distance
 
 
 def _locus_vertices(evidence: Evidence, locus: Reflexive) -> Ints:

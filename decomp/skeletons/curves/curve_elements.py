@@ -12,7 +12,7 @@ import numpy as np
 from decomp.complex.model import CurveElement
 from decomp.errors import GeometryError
 from decomp.skeletons.balls.equidistance import Equidistant, equidistant
-from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.balls.supports import SEARCHED
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.normal_balls import least_radius, solve_radius, try_radius
@@ -90,7 +90,7 @@ class SeamCurve:
         """The feet (k, m, 3) of points (k, 3) on the seam."""
         it = self.incidence
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        return equidistant(it.boundary, it.sites, which, points, self.feet_near(points)).feet
+        return equidistant(it.context, which, points, self.feet_near(points)).feet
 
     @cached_property
     def _apart(self) -> Bools:
@@ -138,7 +138,7 @@ def _on_seams(seams: Sequence[SeamCurve], which: Ints, points: Array) -> Equidis
     for number, seam in enumerate(seams):
         rows = np.flatnonzero(which == number)
         feet[rows] = seam.feet_near(points[rows])
-    return equidistant(it.boundary, it.sites, sites, points, feet)
+    return equidistant(it.context, sites, points, feet)
 
 
 def gaps_from(curve: CurveElement, points: Array) -> Array:
@@ -248,7 +248,7 @@ class TrimCurve:
     def _wells(self) -> EdgeWells | None:
         """Of the far site, if it is an edge that can be as near in several places."""
         it = self.incidence
-        table = support_table(it.boundary, it.sites)
+        table = it.context.table
         if table.kinds[self.far] not in SEARCHED:
             return None
         return EdgeWells(it.boundary.edges[it.sites[self.far].index])

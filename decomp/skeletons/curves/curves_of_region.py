@@ -12,7 +12,6 @@ from scipy.optimize import minimize_scalar  # type: ignore[import-untyped]
 
 from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind, faces_at
 from decomp.skeletons.balls.balls import inscribed_balls
 from decomp.skeletons.balls.fields import site_fields
@@ -117,14 +116,14 @@ class LocusRun:
 
 
 def trim_pieces(
-    index: SiteIndex, incidence: Incidence, curves: Sequence[NormalCurve]
+    incidence: Incidence, curves: Sequence[NormalCurve]
 ) -> tuple[list[CurvePiece], list[LocusRun]]:
     """The trims over normal curves: pieces of their own, and runs along reflexive loci."""
     found: list[CurvePiece] = []
     runs: list[LocusRun] = []
-    for number, trims in enumerate(TrimScanner(index, incidence).pieces(curves)):
+    for number, trims in enumerate(TrimScanner(incidence).pieces(curves)):
         for trim in trims:
-            piece = _trim_piece(index, incidence, trim)
+            piece = _trim_piece(incidence, trim)
             if isinstance(piece, CurvePiece):
                 found.append(replace(piece, over=frozenset({number})))
             else:
@@ -185,9 +184,7 @@ def _turn(
     return min(max(at, low), high)
 
 
-def _trim_piece(
-    index: SiteIndex, incidence: Incidence, trim: TrimPiece
-) -> CurvePiece | Callable[[Array], Array]:
+def _trim_piece(incidence: Incidence, trim: TrimPiece) -> CurvePiece | Callable[[Array], Array]:
     """The piece over a part of a normal curve; on a reflexive locus only the balls' radii."""
     over, size = trim.over, incidence.boundary.diagonal
     span = trim.end - trim.start
@@ -195,13 +192,13 @@ def _trim_piece(
     parts = np.concatenate([[BESIDE, 2 * BESIDE], inner, [1 - 2 * BESIDE, 1 - BESIDE]])
     s = trim.start + span * parts
     q, n = over.feet(s), over.directions(s)
-    balls = inscribed_balls(index, incidence.boundary, incidence.region, q, n)
+    balls = inscribed_balls(incidence.context, q, n)
     round_site = _locus_site(incidence, over.touching, balls.centre)
     if round_site is not None:
         return partial(_locus_radius, incidence, over, round_site)
     far = trim.far[0]
     which: Ints = np.full(len(s), far, dtype=np.int64)
-    feet = site_fields(incidence.boundary, incidence.sites, which, balls.centre, balls.foot).foot
+    feet = site_fields(incidence.context, which, balls.centre, balls.foot).foot
     points = balls.centre
     curve = TrimCurve(incidence, over, trim.start, trim.end, far, points, feet)
     points = curve.at(s, balls.radius)
@@ -272,13 +269,13 @@ def _locus_radius(incidence: Incidence, curve: NormalCurve, number: int, s: Arra
     return incidence.boundary.carriers[face.carrier].inner_radius(face.outward, curve.feet(s))
 
 
-def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
+def ray_pieces(incidence: Incidence) -> list[CurvePiece]:
     """Rims over vertices at which two reentrant edges of a face meet at a reflex angle."""
     found = []
     boundary = incidence.boundary
     for vertex, face, direction in reflex_rays(incidence):
         point = boundary.vertices[vertex].point
-        balls = inscribed_balls(index, boundary, incidence.region, point[None], direction[None])
+        balls = inscribed_balls(incidence.context, point[None], direction[None])
         radius = float(balls.radius[0])
         if radius <= 1e-9 * boundary.diagonal:
             continue
@@ -289,7 +286,7 @@ def ray_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
             for e in boundary.vertices[vertex].edges
             if face in boundary.edges[e].faces and e in incidence.edge_site
         ]
-        foot = site_fields(boundary, incidence.sites, which, balls.centre, balls.foot).foot[0]
+        foot = site_fields(incidence.context, which, balls.centre, balls.foot).foot[0]
         exact = _face_radius(incidence, face, point[None])
         if abs(exact - radius) > AT_LOCUS * radius:
             exact = _ray_end(incidence, point, direction, int(which[0]), foot, radius)

@@ -83,7 +83,7 @@ def jumping(
     suspect = apart > np.maximum(slow, near)
     sites: Ints = np.array(which)
     for (_, start), (centre, foot) in (ends, ends[::-1]):
-        moved = site_fields(incidence.boundary, incidence.sites, sites, centre, start).foot
+        moved = site_fields(incidence.context, sites, centre, start).foot
         suspect |= (norm(moved - foot) > near) & (apart > near)
     found[rows] = suspect
     return found

@@ -14,10 +14,11 @@ from functools import cached_property
 
 import numpy as np
 
-from decomp.boundary.topology import Convexity, Edge, RegionBoundary
-from decomp.sites.site import Site, SiteKind
+from decomp.boundary.topology import Convexity, Edge
+from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.fields import edge_foot, site_fields
-from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.balls.region_context import RegionContext
+from decomp.skeletons.balls.supports import SEARCHED
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.legs import legs
 from decomp.tolerance import CONVERGED
@@ -33,14 +34,13 @@ class Incidence:
     """Edges, vertices and faces of one region by the sites that they are.
 
     Args:
-        boundary: of the region.
-        sites: all sites of the model.
-        region: its index.
+        context: of the region.
     """
 
-    def __init__(self, boundary: RegionBoundary, sites: Sequence[Site], region: int) -> None:
-        self.boundary, self.sites, self.region = boundary, sites, region
-        self._size = boundary.diagonal
+    def __init__(self, context: RegionContext) -> None:
+        self.context = context
+        self.boundary, self.sites, self.region = context.boundary, context.sites, context.region
+        self._size = context.size
         self.face_site: dict[int, int] = {}
         self.edge_site: dict[int, int] = {}
         self.vertex_site: dict[int, int] = {}
@@ -49,8 +49,8 @@ class Incidence:
             SiteKind.EDGE: self.edge_site,
             SiteKind.VERTEX: self.vertex_site,
         }
-        for number, site in enumerate(sites):
-            if site.region == region:
+        for number, site in enumerate(context.sites):
+            if site.region == context.region:
                 tables[site.kind][site.index] = number
 
     @cached_property
@@ -108,7 +108,7 @@ class Incidence:
                 past = np.flatnonzero(_past_ends(samples, found[:, column], NEAR * self._size))
                 inner, known = _inner_guess(samples, points[past])
                 found[past[known], column] = self._feet(site, points[past[known]], inner[known])
-            if support_table(self.boundary, self.sites).kinds[site] in SEARCHED:
+            if self.context.table.kinds[site] in SEARCHED:
                 self._to_nearest_leg(site, points, found[:, column])
         return found
 
@@ -134,7 +134,7 @@ class Incidence:
 
     def _feet(self, site: int, points: Array, guess: Array) -> Array:
         which = np.full(len(points), site, dtype=np.int64)
-        return site_fields(self.boundary, self.sites, which, points, guess).foot
+        return site_fields(self.context, which, points, guess).foot
 
     def _several(self, site: int, points: Array, count: int) -> Array:
         """The nearest feet (k, count, 3) of points (k, 3) on an edge, from all its samples."""
@@ -143,7 +143,7 @@ class Incidence:
         which = np.full(len(samples), site, dtype=np.int64)
         for row, point in enumerate(points):
             at = np.repeat(point[None], len(samples), axis=0)
-            field = site_fields(self.boundary, self.sites, which, at, samples)
+            field = site_fields(self.context, which, at, samples)
             order = np.argsort(field.distance, kind="stable")
             feet: list[Array] = []
             for foot in field.foot[order]:

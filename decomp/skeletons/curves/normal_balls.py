@@ -6,7 +6,6 @@ import numpy as np
 
 from decomp.errors import GeometryError
 from decomp.skeletons.balls.raising import touching_radii
-from decomp.skeletons.balls.supports import support_table
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.normal_curves import NormalCurve
@@ -36,7 +35,7 @@ def try_radius(
 ) -> Array:
     """The same, nan where there is no such ball."""
     which: Ints = np.full(len(s), far, dtype=np.int64)
-    table = support_table(incidence.boundary, incidence.sites)
+    table = incidence.context.table
     size = incidence.boundary.diagonal
     return touching_radii(table, size, which, curve.feet(s), curve.directions(s), guess, feet)
 

@@ -19,9 +19,7 @@ from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 from decomp.carriers import Carrier
 from decomp.curves.circle import Circle
-from decomp.sites import SiteIndex
 from decomp.skeletons.balls.fields import site_fields
-from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.reflexive_loci import Locus, circle_axis, locus_of
 from decomp.vectors import Array, Bools, norm
@@ -87,7 +85,7 @@ class ReflexivePart:
         return self.locus is not None and self.locus.closed and self.others == (-1, -1)
 
 
-def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePart]:
+def reflexive_parts(incidence: Incidence) -> list[ReflexivePart]:
     """All reflexive curves and points of a region."""
     boundary = incidence.boundary
     groups: dict[tuple[int, int], list[int]] = {}
@@ -98,15 +96,15 @@ def reflexive_parts(index: SiteIndex, incidence: Incidence) -> list[ReflexivePar
         carrier = boundary.carriers[carrier_number]
         sites = tuple(incidence.face_site[f] for f in faces)
         if carrier.locus == 0 and outward > 0:
-            found.extend(_centre(index, incidence, carrier, sites))
+            found.extend(_centre(incidence, carrier, sites))
         locus = locus_of(carrier, outward, boundary.bounds)
         if locus is not None:
-            found.extend(_Search(index, incidence, sites, locus).parts())
+            found.extend(_Search(incidence, sites, locus).parts())
     for number, site in incidence.edge_site.items():
         curve = boundary.edges[number].curve
         if isinstance(curve, Circle):
             locus = circle_axis(curve, boundary.bounds)
-            found.extend(_Search(index, incidence, (site,), locus).parts())
+            found.extend(_Search(incidence, (site,), locus).parts())
     return _distinct(found, boundary.tolerances.same)
 
 
@@ -122,11 +120,9 @@ def _distinct(parts: Sequence[ReflexivePart], within: float) -> list[ReflexivePa
     return kept
 
 
-def _centre(
-    index: SiteIndex, incidence: Incidence, ball: Carrier, sites: tuple[int, ...]
-) -> list[ReflexivePart]:
+def _centre(incidence: Incidence, ball: Carrier, sites: tuple[int, ...]) -> list[ReflexivePart]:
     centre = ball.place[None]
-    found = index.nearest(centre)
+    found = incidence.context.index.nearest(centre)
     size = incidence.boundary.diagonal
     depth = ball.width - float(found.distance[0])
     if found.region[0] != incidence.region or depth > ZERO * size:
@@ -134,17 +130,15 @@ def _centre(
     rng = np.random.default_rng(0)
     ways = rng.normal(size=(AROUND, 3))
     ways /= norm(ways)[:, None]
-    if not _touched(index, incidence, centre, ways, ball.width).sum() > 1:
+    if not _touched(incidence, centre, ways, ball.width).sum() > 1:
         return []
     return [ReflexivePart(sites, None, 0.0, 0.0, np.repeat(centre, 2, axis=0), (-1, -1))]
 
 
-def _touched(
-    index: SiteIndex, incidence: Incidence, centre: Array, ways: Array, radius: float
-) -> Bools:
+def _touched(incidence: Incidence, centre: Array, ways: Array, radius: float) -> Bools:
     """Whether the boundary is touched at a distance in some directions (k, 3) from a point."""
     half = centre + TOWARDS * radius * ways
-    inside, depth = region_queries(index, incidence.region).depth(half)
+    inside, depth = incidence.context.queries.depth(half)
     gap = np.abs(depth - (1 - TOWARDS) * radius)
     return np.asarray(inside & (gap <= 1e-9 * incidence.boundary.diagonal))
 
@@ -152,10 +146,8 @@ def _touched(
 class _Search:
     """Looks for the zeros of the depth along one locus."""
 
-    def __init__(
-        self, index: SiteIndex, incidence: Incidence, sites: tuple[int, ...], locus: Locus
-    ) -> None:
-        self._index, self._incidence = index, incidence
+    def __init__(self, incidence: Incidence, sites: tuple[int, ...], locus: Locus) -> None:
+        self._incidence = incidence
         self._sites, self._locus = sites, locus
         self._size = incidence.boundary.diagonal
         self._zero = ZERO * self._size
@@ -177,7 +169,7 @@ class _Search:
 
     def _depth(self, u: Array) -> Array:
         points = self._locus.point(u)
-        inside, depth = region_queries(self._index, self._incidence.region).depth(points)
+        inside, depth = self._incidence.context.queries.depth(points)
         radius = self._locus.radius(u)
         inside &= radius > self._zero
         return np.where(inside, np.abs(radius - depth), radius + depth + 2 * self._zero)
@@ -244,7 +236,7 @@ class _Search:
         centre = locus.point(middle)
         radius = float(locus.radius(middle)[0])
         ways = locus.touched(float(middle[0]), AROUND)
-        if _touched(self._index, self._incidence, centre, ways, radius).sum() < 2:
+        if _touched(self._incidence, centre, ways, radius).sum() < 2:
             return None
         ends = locus.point(np.array([start, end]))
         return ReflexivePart(self._held(start, end), locus, start, end, ends, others)
@@ -258,7 +250,7 @@ class _Search:
             at = np.array([u])
             ways = self._locus.touched(float(u), AROUND)
             toward.append(self._locus.point(at) + TOWARD * self._locus.radius(at) * ways)
-        found = self._index.nearest(np.concatenate(toward))
+        found = self._incidence.context.index.nearest(np.concatenate(toward))
         short = (1 - TOWARD) * np.repeat(self._locus.radius(np.linspace(start, end, LOOKS)), AROUND)
         touched = found.distance >= short - self._zero
         return tuple(s for s in self._sites if s in set(found.site[touched].tolist()))
@@ -275,13 +267,13 @@ class _Search:
             if abs(outside - inside) <= 1e-15 * self._size:
                 break
         beyond = inside + sense * 1e-6 * self._size
-        near = self._index.nearest(self._locus.point(np.array([beyond])))
+        near = self._incidence.context.index.nearest(self._locus.point(np.array([beyond])))
         if near.region[0] != self._incidence.region:
             return inside, -1
         other, foot = int(near.site[0]), near.foot
         # farther on the foot is told better: the distances grow with the square of the way
         clear = inside + sense * BESIDE * self._size
-        far = self._index.nearest(self._locus.point(np.array([clear])))
+        far = self._incidence.context.index.nearest(self._locus.point(np.array([clear])))
         if int(far.site[0]) == other:
             foot = far.foot
         return self._polished(inside, sense, other, foot), other
@@ -298,7 +290,7 @@ class _Search:
         def gap(v: float) -> float:
             at = np.array([v])
             p = self._locus.point(at)
-            field = site_fields(it.boundary, it.sites, which, p, foot)
+            field = site_fields(it.context, which, p, foot)
             return float(field.distance[0] - self._locus.radius(at)[0])
 
         def change(v: float) -> float:
@@ -306,7 +298,7 @@ class _Search:
             h = 1e-6 * self._size
             at = np.array([v - h, v, v + h])
             behind, here, ahead = self._locus.point(at)
-            field = site_fields(it.boundary, it.sites, which, here[None], foot)
+            field = site_fields(it.context, which, here[None], foot)
             low, _, high = self._locus.radius(at)
             return float((field.gradient[0] @ (ahead - behind) - (high - low)) / (2 * h))
 

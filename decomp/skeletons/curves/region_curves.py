@@ -7,8 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
-from decomp.sites import SiteIndex
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.curves_of_region import (
     LocusRun,
     ray_pieces,
@@ -85,33 +84,29 @@ class RegionCurves:
         return found
 
 
-def region_curves(
-    index: SiteIndex, boundary: RegionBoundary, region: int, samples: int
-) -> RegionCurves:
+def region_curves(context: RegionContext, samples: int) -> RegionCurves:
     """Find all curves of a region's skeleton.
 
     Args:
-        index: queries of the model.
-        boundary: of the region.
-        region: its index.
+        context: of the region.
         samples: boundary points from which seams are looked for that no node leads to.
 
     Raises:
         GeometryError: a curve cannot be followed; says where.
     """
-    incidence = Incidence(boundary, index.sites, region)
-    graph = seam_graph(index, boundary, region, samples=samples)
+    boundary, incidence = context.boundary, Incidence(context)
+    graph = seam_graph(context, samples=samples)
     over = normal_curves(incidence)
-    parts = reflexive_parts(index, incidence)
-    trims, locus_runs = trim_pieces(index, incidence, over)
+    parts = reflexive_parts(incidence)
+    trims, locus_runs = trim_pieces(incidence, over)
     seams = seam_pieces(incidence, graph.seams)
     loci = reflexive_pieces(parts)
     found = [
         *seams,
         *trims,
-        *ray_pieces(index, incidence),
-        *rim_pieces(index, incidence),
-        *merging_rays(index, incidence),
+        *ray_pieces(incidence),
+        *rim_pieces(incidence),
+        *merging_rays(incidence),
         *loci,
     ]
     fixed = [v.point for v in boundary.vertices] + [p.ends[0] for p in parts if p.dimension == 0]
@@ -121,12 +116,12 @@ def region_curves(
     turns += [run.points[k] for run in locus_runs for k in (0, -1)]
     touches = touching_points(incidence, [*seams, *trims])
     runs = [run for seam in graph.seams for run in seam.runs]
-    touches += [meeting.point for meeting in SeamMeetings(index, boundary, region).of(runs)]
+    touches += [meeting.point for meeting in SeamMeetings(context).of(runs)]
     # the graph has told junctions apart by their contacts
     junctions = [node.point for node in graph.nodes if node.radius > 0]
     ends = np.array(fixed).reshape(-1, 3)
     joined = network(boundary.diagonal, ends, found, turns, touches, junctions)
-    pieces = with_pairs(index, incidence, relabelled(index, incidence, joined.pieces))
+    pieces = with_pairs(incidence, relabelled(incidence, joined.pieces))
     return RegionCurves(
         incidence, joined.nodes, tuple(pieces), tuple(over), tuple(parts), tuple(locus_runs)
     )

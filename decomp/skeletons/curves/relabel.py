@@ -14,7 +14,6 @@ import numpy as np
 
 from decomp.boundary.topology import Convexity, Vertex
 from decomp.complex.model import LineKind
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.balls import inscribed_balls
 from decomp.skeletons.balls.fields import site_fields
@@ -26,7 +25,7 @@ from decomp.vectors import Array, Ints, norm
 TOWARDS = 0.3
 
 
-def merging_rays(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
+def merging_rays(incidence: Incidence) -> list[CurvePiece]:
     """The normals at vertices at which all faces have one normal, up to their maximal balls.
 
     Contacts on these faces merge in the vertex, so the sheets that start at its convex edges end
@@ -43,7 +42,7 @@ def merging_rays(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
         }
         if way is None or not pairs:
             continue
-        balls = inscribed_balls(index, boundary, incidence.region, vertex.point[None], way[None])
+        balls = inscribed_balls(incidence.context, vertex.point[None], way[None])
         radius = float(balls.radius[0])
         if radius <= 1e-6 * boundary.diagonal:
             continue
@@ -68,24 +67,20 @@ def _only_normal(incidence: Incidence, vertex: Vertex) -> Array | None:
     return ways[0] if float(norm(ways - ways[0]).max()) <= ANGLE else None
 
 
-def relabelled(
-    index: SiteIndex, incidence: Incidence, pieces: Sequence[CurvePiece]
-) -> list[CurvePiece]:
+def relabelled(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[CurvePiece]:
     """Pieces with the feet and contacts of their own middles."""
     return [
-        _relabelled(index, incidence, piece)
-        if piece.kind is LineKind.SEAM and not piece.pairs
-        else piece
+        _relabelled(incidence, piece) if piece.kind is LineKind.SEAM and not piece.pairs else piece
         for piece in pieces
     ]
 
 
-def _relabelled(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> CurvePiece:
+def _relabelled(incidence: Incidence, piece: CurvePiece) -> CurvePiece:
     middle = piece.middle
     which: Ints = np.array([contact[0] for contact in piece.contacts])
     points = np.repeat(middle[None], len(which), axis=0)
-    feet = site_fields(incidence.boundary, incidence.sites, which, points, piece.feet).foot
-    found = index.nearest(points + TOWARDS * (feet - points)).site
+    feet = site_fields(incidence.context, which, points, piece.feet).foot
+    found = incidence.context.index.nearest(points + TOWARDS * (feet - points)).site
     contacts: list[Contact] = []
     for contact, foot, site in zip(piece.contacts, feet, found.tolist(), strict=True):
         if site in contact or not _alike(incidence, contact[0], site):

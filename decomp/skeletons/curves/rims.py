@@ -18,10 +18,8 @@ from decomp.complex.model import LineKind
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.skeletons.balls.balls import inscribed_balls
 from decomp.skeletons.balls.fields import site_fields
-from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.curves.contours import chains, contour
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.osculation import Osculation
@@ -51,7 +49,7 @@ KNOWN = 65
 """Spots of a rim that are known at least."""
 
 
-def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
+def rim_pieces(incidence: Incidence) -> list[CurvePiece]:
     """The rims of all edges of a region.
 
     Raises:
@@ -61,7 +59,7 @@ def rim_pieces(index: SiteIndex, incidence: Incidence) -> list[CurvePiece]:
     for number, site in incidence.edge_site.items():
         edge = incidence.boundary.edges[number]
         if not isinstance(edge.curve, (Line, Circle)):
-            found.extend(_EdgeRims(index, incidence, number, site).pieces())
+            found.extend(_EdgeRims(incidence, number, site).pieces())
     return found
 
 
@@ -76,12 +74,12 @@ def _spread(spots: Array) -> list[int]:
 
 
 class _EdgeRims:
-    def __init__(self, index: SiteIndex, incidence: Incidence, number: int, site: int) -> None:
-        self._index, self._incidence, self._site = index, incidence, site
+    def __init__(self, incidence: Incidence, number: int, site: int) -> None:
+        self._incidence, self._site = incidence, site
         self._size = incidence.boundary.diagonal
         self._edge = incidence.boundary.edges[number]
         self._spheres = Osculation(incidence.boundary, self._edge)
-        self._queries = region_queries(index, incidence.region)
+        self._queries = incidence.context.queries
 
     def pieces(self) -> list[CurvePiece]:
         """All rims of the edge."""
@@ -198,7 +196,7 @@ class _EdgeRims:
             else:
                 high = middle
         feet, ways, _, _ = self._spheres.balls(self._between(inside, outside, high))
-        ball = inscribed_balls(self._index, it.boundary, it.region, feet, ways)
+        ball = inscribed_balls(it.context, feet, ways)
         if int(ball.site[0]) < 0 or float(norm(ball.foot - feet)[0]) < NEAR * float(ball.radius[0]):
             name = it.sites[self._site].name
             raise GeometryError(
@@ -210,7 +208,7 @@ class _EdgeRims:
 
         def gap(share: float) -> float:
             _, _, radius, centre = self._spheres.balls(self._between(inside, outside, share))
-            field = site_fields(it.boundary, it.sites, ball.site, centre, ball.foot)
+            field = site_fields(it.context, ball.site, centre, ball.foot)
             return float(field.distance[0] - radius[0])
 
         if gap(low) <= 0:

@@ -15,9 +15,7 @@ import numpy as np
 
 from decomp.complex.model import LineKind
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.sites.occupancy import Labels
-from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.pieces import CurvePiece, middle_row
 from decomp.vectors import Array, frame, norm
@@ -35,16 +33,14 @@ HALVINGS = 12
 Pair = tuple[int, int]
 
 
-def with_pairs(
-    index: SiteIndex, incidence: Incidence, pieces: Sequence[CurvePiece]
-) -> list[CurvePiece]:
+def with_pairs(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[CurvePiece]:
     """Fill in the pairs of every piece."""
     result = []
     for piece in pieces:
         if piece.pairs:
             result.append(piece)
         elif piece.kind is LineKind.REFLEXIVE or any(len(c) > 1 for c in _beside(piece)):
-            result.append(replace(piece, pairs=_ring(index, incidence, piece)))
+            result.append(replace(piece, pairs=_ring(incidence, piece)))
         elif piece.kind is LineKind.TRIM:
             near, far = piece.contacts
             result.append(replace(piece, pairs=tuple(_pair(a, far[0]) for a in near)))
@@ -83,10 +79,10 @@ def _cyclic(piece: CurvePiece) -> tuple[Pair, ...]:
     return tuple(_pair(a, b) for a, b in zip(sites, (*sites[1:], sites[0]), strict=True))
 
 
-def _ring(index: SiteIndex, incidence: Incidence, piece: CurvePiece) -> tuple[Pair, ...]:
+def _ring(incidence: Incidence, piece: CurvePiece) -> tuple[Pair, ...]:
     middle = piece.middle
     x, y = frame(_tangent(piece))
-    queries = region_queries(index, incidence.region)
+    queries = incidence.context.queries
     radius = float(queries.depth(middle[None])[1][0])
     reach = REACH * min(radius, piece.length)
     angles = np.linspace(0, 2 * np.pi, RING, endpoint=False) + 0.1234567

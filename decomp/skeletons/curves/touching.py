@@ -44,7 +44,7 @@ def touching_points(incidence: Incidence, pieces: Sequence[CurvePiece]) -> list[
 def _at_end(incidence: Incidence, site: int, near: Array, point: Array) -> bool:
     """Whether another site shares the contact of a site from a point (3,)."""
     which = np.array([site])
-    found = site_fields(incidence.boundary, incidence.sites, which, point[None], near[None])
+    found = site_fields(incidence.context, which, point[None], near[None])
     foot = found.foot[0]
     return len(incidence.touched(site, foot, (point - foot) / float(norm(point - foot)))) > 1
 
@@ -57,7 +57,7 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
     def feet(points: Array) -> Array:
         which = np.full(len(points), site, dtype=np.int64)
         known = np.repeat(near[None], len(points), axis=0)
-        return site_fields(boundary, incidence.sites, which, points, known).foot
+        return site_fields(incidence.context, which, points, known).foot
 
     if it.kind is SiteKind.EDGE:
 

@@ -15,7 +15,6 @@ import numpy as np
 
 from decomp.boundary.topology import Convexity
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls import loci
 from decomp.skeletons.balls.balls import inscribed_balls
@@ -77,8 +76,8 @@ class TrimPiece:
 class TrimScanner:
     """Finds the pieces of all trims of one region."""
 
-    def __init__(self, index: SiteIndex, incidence: Incidence) -> None:
-        self._index, self._incidence = index, incidence
+    def __init__(self, incidence: Incidence) -> None:
+        self._incidence = incidence
         self._size = incidence.boundary.diagonal
 
     def pieces(self, curves: Sequence[NormalCurve]) -> list[list[TrimPiece]]:
@@ -138,7 +137,7 @@ class TrimScanner:
         s = one.s + length * np.linspace(0.0, 1.0, 5)
         q, n = curve.feet(s), curve.directions(s)
         incidence = self._incidence
-        balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
+        balls = inscribed_balls(incidence.context, q, n)
         feet = np.repeat(before.foot[None], len(s), axis=0)
         radius = try_radius(incidence, curve, before.far[0], s, feet, balls.radius)
         return bool(np.abs(radius - balls.radius).max() <= TOUCHES * self._size)
@@ -156,8 +155,8 @@ class TrimScanner:
 
         def gap(s: Array) -> Array:
             q, n = curve.feet(s), curve.directions(s)
-            balls = inscribed_balls(self._index, incidence.boundary, incidence.region, q, n)
-            return locus_gap(incidence.boundary, incidence.sites, curve.touching, balls.centre)
+            balls = inscribed_balls(incidence.context, q, n)
+            return locus_gap(incidence.context, curve.touching, balls.centre)
 
         stops = touches(self._size, known, gap)
         if len(stops) == 1 and curve.closed and piece.end - piece.start == period:
@@ -205,12 +204,11 @@ class TrimScanner:
         inward = np.concatenate([curve.directions(s) for curve, s in both])
         near = np.repeat([sorted(c.sites) for c in curves], [len(s) for s in parameters], axis=0)
         incidence = self._incidence
-        boundary, sites = incidence.boundary, incidence.sites
-        balls = inscribed_balls(self._index, boundary, incidence.region, feet, inward)
+        balls = inscribed_balls(incidence.context, feet, inward)
         # the foot that stopped the ball is that of its last centre but one
         known = np.flatnonzero(balls.site >= 0)
         field = site_fields(
-            boundary, sites, balls.site[known], balls.centre[known], balls.foot[known]
+            incidence.context, balls.site[known], balls.centre[known], balls.foot[known]
         )
         hits = np.array(balls.foot)
         hits[known] = field.foot
@@ -237,8 +235,7 @@ class TrimScanner:
 
     def _past_locus(self, which: Sequence[int], feet: Array, radius: Array) -> Bools:
         """Whether balls reach a locus, even where they come to rest a little late."""
-        boundary, sites = self._incidence.boundary, self._incidence.sites
-        return loci.past_locus(boundary, sites, which, feet, radius, LOCUS)
+        return loci.past_locus(self._incidence.context, which, feet, radius, LOCUS)
 
     def _alone(self, site: Ints, feet: Array) -> Bools:
         """Whether feet (k, 3) on sites (k,) are on faces and clearly on none of their bends."""
@@ -347,12 +344,12 @@ class TrimScanner:
     def _distance(self, site: int, points: Array, feet: Array) -> Array:
         which = np.full(len(points), site, dtype=np.int64)
         it = self._incidence
-        return site_fields(it.boundary, it.sites, which, points, feet).distance
+        return site_fields(it.context, which, points, feet).distance
 
 
 def on_locus(incidence: Incidence, sites: Sequence[int], points: Array) -> Bools:
     """Whether points (k, 3) are on the reflexive locus of one of some sites."""
-    return loci.on_locus(incidence.boundary, incidence.sites, sites, points, LOCUS)
+    return loci.on_locus(incidence.context, sites, points, LOCUS)
 
 
 def _continue_to_ends(samples: list[TrimSample]) -> None:

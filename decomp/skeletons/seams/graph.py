@@ -11,12 +11,11 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.attempts import Way, first_of
-from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.boundary.topology import Convexity
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.fields import site_fields
-from decomp.skeletons.balls.supports import support_table
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.graph_nodes import GraphNodes, OversteppedError
 from decomp.skeletons.seams.known_seams import KnownSeams
 from decomp.skeletons.seams.leaving.local import SeamRay, seam_rays
@@ -46,15 +45,11 @@ seams of which two arrive where one does."""
 FIRST_STEPS = (1e-3, 1e-4, 1e-5, 1e-2)
 
 
-def seam_graph(
-    index: SiteIndex, boundary: RegionBoundary, region: int, samples: int = 1000, seed: int = 0
-) -> SeamGraph:
+def seam_graph(context: RegionContext, samples: int = 1000, seed: int = 0) -> SeamGraph:
     """Trace all seams of a region.
 
     Args:
-        index: nearest-site queries of the model.
-        boundary: of the region.
-        region: its index.
+        context: of the region.
         samples: boundary points from which seams are looked for that no node leads to; again with
             others until no more are found.
         seed: of the random numbers that place them.
@@ -65,7 +60,7 @@ def seam_graph(
 
     def way(longest: float, *after: type[GeometryError]) -> Way[SeamGraph]:
         def run() -> SeamGraph:
-            return _seam_graph(_Grower(index, boundary, region, longest), samples, seed)
+            return _seam_graph(_Grower(context, longest), samples, seed)
 
         return Way(f"steps of at most {longest:g} of the size", run, after)
 
@@ -86,18 +81,11 @@ def _seam_graph(grower: _Grower, samples: int, seed: int) -> SeamGraph:
     return grower.graph
 
 
-def missed_seams(
-    index: SiteIndex,
-    boundary: RegionBoundary,
-    region: int,
-    graph: SeamGraph,
-    samples: int,
-    seed: int,
-) -> Array:
+def missed_seams(context: RegionContext, graph: SeamGraph, samples: int, seed: int) -> Array:
     """Points (k, 3) on seams that a graph lacks, as seen from random boundary points."""
-    grower = _Grower(index, boundary, region, LONGEST[0])
+    grower = _Grower(context, LONGEST[0])
     seeds = grower.seeds(samples, seed)
-    seams = KnownSeams(support_table(boundary, index.sites), boundary.diagonal, graph.seams)
+    seams = KnownSeams(context.table, context.size, graph.seams)
     unknown = grower.unknown(seeds, seams)
     return np.array([s.point for s in grower.settled(seeds, unknown)]).reshape(-1, 3)
 
@@ -109,12 +97,10 @@ EARLIER = 1e-4
 class _Grower:
     """Grows the graph from nodes whose rays have not been followed yet."""
 
-    def __init__(
-        self, index: SiteIndex, boundary: RegionBoundary, region: int, longest: float
-    ) -> None:
-        self._index, self._boundary, self._region = index, boundary, region
-        self._size = boundary.diagonal
-        self._points = SeamPoints(index, boundary, region)
+    def __init__(self, context: RegionContext, longest: float) -> None:
+        self._context, self._boundary = context, context.boundary
+        self._size = context.size
+        self._points = SeamPoints(context)
         self._tracer = SeamTracer(self._points, longest)
         self._seams = KnownSeams(self._points.table, self._size)
         self._nodes = GraphNodes(self._points, self._seams)
@@ -128,14 +114,14 @@ class _Grower:
 
     def seeds(self, samples: int, seed: int) -> Seeds:
         """Places of seams, as seen from random boundary points."""
-        return seam_seeds(self._index, self._boundary, self._region, samples, seed)
+        return seam_seeds(self._context, samples, seed)
 
     def start_at_vertices(self) -> None:
         """Add every convex vertex that a seam leaves."""
         face_site = {
             site.index: k
-            for k, site in enumerate(self._index.sites)
-            if site.region == self._region and site.kind is SiteKind.FACE
+            for k, site in enumerate(self._context.sites)
+            if site.region == self._context.region and site.kind is SiteKind.FACE
         }
         for vertex in self._boundary.vertices:
             if vertex.convexity is not Convexity.CONVEX or len(vertex.faces) < 3:
@@ -164,7 +150,7 @@ class _Grower:
         for part in FIRST_STEPS:
             ahead = point + part * reach * ray.direction
             points = np.repeat(ahead[None], len(which), axis=0)
-            feet = site_fields(self._boundary, self._index.sites, which, points, points).foot
+            feet = site_fields(self._context, which, points, points).foot
             state = self._points.settled(ahead, feet, ray.direction)
             if state is not None:
                 return state
@@ -198,7 +184,7 @@ class _Grower:
         """Trace seams anew from where two of them cross unnoticed; return how many such places."""
         runs = [run for seam in self._seams.seams for run in seam.runs]
         slack, count = self._points.tolerances.same, 0
-        for meeting in SeamMeetings(self._index, self._boundary, self._region).of(runs):
+        for meeting in SeamMeetings(self._context).of(runs):
             if meeting.dip > slack and self._nodes.known(meeting.point) is None:
                 self._grow_from(meeting.point)
                 count += 1

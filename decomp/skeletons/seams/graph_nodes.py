@@ -46,7 +46,7 @@ class GraphNodes:
 
     def __init__(self, points: SeamPoints, seams: KnownSeams) -> None:
         self._points, self._seams, self._size = points, seams, points.size
-        self._arcs = Arcs(points.boundary, points.index.sites, points.region, points.queries)
+        self._arcs = Arcs(points.context)
         self.nodes: list[Node] = []
         self.open: list[tuple[int, int]] = []
         self.starts: dict[tuple[int, int], State] = {}

@@ -14,11 +14,10 @@ from itertools import combinations
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
-from decomp.sites import SiteIndex
 from decomp.skeletons.balls.contacts import ContactFinder
 from decomp.skeletons.balls.equidistance import equidistant
 from decomp.skeletons.balls.fields import site_fields
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.minima import least_values
 from decomp.skeletons.seams.seam_graph_model import SeamRun
 from decomp.vectors import Array, Ints, norm
@@ -51,14 +50,12 @@ class SeamMeetings:
     """Finds where seams of one region meet.
 
     Args:
-        index: nearest-site queries.
-        boundary: of the region.
-        region: its index.
+        context: of the region.
     """
 
-    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
-        self._sites, self._boundary = index.sites, boundary
-        self._finder = ContactFinder(index, boundary, region)
+    def __init__(self, context: RegionContext) -> None:
+        self._context, self._boundary = context, context.boundary
+        self._finder = ContactFinder(context)
 
     def of(self, runs: Sequence[SeamRun]) -> list[Meeting]:
         """The meetings of some seams' parts between their ends, each told along one of the two."""
@@ -123,7 +120,7 @@ class SeamMeetings:
         row, column = np.unravel_index(int(gaps.argmin()), gaps.shape)
         point, which = run.points[row], np.array(other.sites)
         points = np.repeat(point[None], len(which), axis=0)
-        feet = site_fields(self._boundary, self._sites, which, points, other.feet[column]).foot
+        feet = site_fields(self._context, which, points, other.feet[column]).foot
         radius = float(norm(point - run.feet[row, 0]))
         apart = norm(feet[:, None] - run.feet[row][None]) > APART * radius
         same = which[:, None] == np.array(run.sites)[None]
@@ -137,16 +134,16 @@ class SeamMeetings:
         points = run.points[first] + part[:, None] * (run.points[first + 1] - run.points[first])
         feet = run.feet[first] + part[:, None, None] * (run.feet[first + 1] - run.feet[first])
         which: Ints = np.tile(np.array(run.sites), (len(points), 1))
-        found = equidistant(self._boundary, self._sites, which, points, feet)
+        found = equidistant(self._context, which, points, feet)
         return np.where(found.converged[:, None], found.points, np.nan), found.feet
 
     def _gaps(self, own: int, other: int, foot: Array, points: Array, feet: Array) -> Array:
         """How much farther (k,) points are from another site than from their own feet."""
         which: Ints = np.full(len(points), own, dtype=np.int64)
-        radius = site_fields(self._boundary, self._sites, which, points, feet[:, 0]).distance
+        radius = site_fields(self._context, which, points, feet[:, 0]).distance
         which = np.full(len(points), other, dtype=np.int64)
         known = np.repeat(foot[None], len(points), axis=0)
-        gaps = site_fields(self._boundary, self._sites, which, points, known).distance - radius
+        gaps = site_fields(self._context, which, points, known).distance - radius
         return np.where(np.isfinite(gaps), gaps, np.inf)
 
 

@@ -15,12 +15,12 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.boundary.topology import RegionBoundary
 from decomp.carriers.on_carriers import normals_at, projected
 from decomp.kernels.compiled import scalar
-from decomp.sites import SiteIndex
 from decomp.sites.on_boundary import NOWHERE, on_boundary
 from decomp.skeletons.balls.balls import Balls, balls_at
 from decomp.skeletons.balls.equidistance import equidistant
 from decomp.skeletons.balls.probing import TOWARDS, Probe, inside
-from decomp.skeletons.balls.queries import RegionQueries, region_queries
+from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.balls.shrinking import OSCULATES, TOUCHES
 from decomp.skeletons.seams.edge_seeds import edge_jumps
 from decomp.vectors import Array, Bools, Ints, frame, norm
@@ -61,19 +61,15 @@ class _Samples:
     signs: Array
 
 
-def seam_seeds(
-    index: SiteIndex, boundary: RegionBoundary, region: int, samples: int, seed: int
-) -> Seeds:
+def seam_seeds(context: RegionContext, samples: int, seed: int) -> Seeds:
     """Look for seams over all faces and curved reentrant edges of a region.
 
     Args:
-        index: nearest-site queries of the model.
-        boundary: of the region.
-        region: its index.
+        context: of the region.
         samples: boundary points to start from; small faces get more than their share.
         seed: of the random numbers that place them.
     """
-    queries = region_queries(index, region)
+    boundary, queries = context.boundary, context.queries
     rng = np.random.default_rng(seed)
     share = sum(face.area for face in boundary.faces)
     scatter, carriers = [], []
@@ -89,7 +85,7 @@ def seam_seeds(
     spots = _between(queries, found, first, second)
     more = edge_jumps(boundary, queries, samples, rng)
     points, feet = (np.concatenate(both) for both in zip(spots, more, strict=True))
-    return _exact(index, boundary, queries, points, feet)
+    return _exact(context, points, feet)
 
 
 def _scattered(
@@ -198,15 +194,13 @@ def _between(
     return low.centre[near], feet
 
 
-def _exact(
-    index: SiteIndex, boundary: RegionBoundary, queries: RegionQueries, points: Array, feet: Array
-) -> Seeds:
+def _exact(context: RegionContext, points: Array, feet: Array) -> Seeds:
     """Seeds put onto the seams of their sites; those without are left out."""
     towards = points[:, None] + TOWARDS * (feet - points[:, None])
-    which = queries.nearest(towards.reshape(-1, 3)).site.reshape(-1, 3).astype(np.int64)
+    which = context.queries.nearest(towards.reshape(-1, 3)).site.reshape(-1, 3).astype(np.int64)
     inner = np.flatnonzero((which >= 0).all(axis=1))
     points, feet, which = points[inner], feet[inner], which[inner]
-    found = equidistant(boundary, index.sites, which, points, feet)
+    found = equidistant(context, which, points, feet)
     good = found.converged & (norm(found.points - points) <= MOVED * found.radius)
     return Seeds(
         np.where(good[:, None], found.points, points),

@@ -9,7 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from decomp.sites import SiteIndex
 from decomp.skeletons.balls.balls import Balls, inscribed_balls
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.sheets.drawn_sheets import SheetPart
@@ -24,7 +23,6 @@ class ClosedSheetMaker:
     """Lifts triangulations of closed faces to their sheets.
 
     Args:
-        index: nearest-site queries of the model.
         incidence: of the region.
         boundary: the region's boundary in the complex.
         add: makes a point (3,) a vertex and returns its number.
@@ -32,12 +30,11 @@ class ClosedSheetMaker:
 
     def __init__(
         self,
-        index: SiteIndex,
         incidence: Incidence,
         boundary: BoundaryVertices,
         add: Callable[[Array], int],
     ) -> None:
-        self._index, self._incidence = index, incidence
+        self._incidence = incidence
         self._boundary, self._add = boundary, add
 
     def sheets(
@@ -58,7 +55,7 @@ class ClosedSheetMaker:
             vertices, local = np.unique(self._boundary.of_face[number], return_inverse=True)
             feet = self._boundary.points[vertices]
             inward = it.inward(number, feet)
-            balls = inscribed_balls(self._index, boundary, it.region, feet, inward)
+            balls = inscribed_balls(it.context, feet, inward)
             others = np.unique(balls.site)
             own = it.face_site[number]
             if len(others) != 1 or others[0] in (-1, own):

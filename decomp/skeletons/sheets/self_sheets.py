@@ -15,7 +15,6 @@ from decomp.complex.footprints.domain_base import Domain
 from decomp.complex.footprints.domain_edges import even_strip
 from decomp.complex.model import SurfaceElement
 from decomp.complex.plane.planar import Triangulation
-from decomp.sites import SiteIndex
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.rim_curve import RimCurve
@@ -39,17 +38,14 @@ class SelfSheetMaker:
     """Triangulates the sheets of edges with themselves over given vertices.
 
     Args:
-        index: nearest-site queries.
         incidence: of the region.
         points: (n, 3) all vertices.
         add: makes a point (3,) a vertex and returns its number.
     """
 
-    def __init__(
-        self, index: SiteIndex, incidence: Incidence, points: Array, add: Callable[[Array], int]
-    ) -> None:
+    def __init__(self, incidence: Incidence, points: Array, add: Callable[[Array], int]) -> None:
         self._incidence, self._points, self._add = incidence, points, add
-        self._tests = SheetTests(index, incidence)
+        self._tests = SheetTests(incidence)
 
     def sheets(
         self, site: int, lines: Sequence[Ints], rims: Sequence[RimCurve | None]

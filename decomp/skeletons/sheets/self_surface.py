@@ -148,7 +148,7 @@ class SelfSheetSurface:
         which: Ints = np.full(2 * len(points), self.site, dtype=np.int64)
         it = self.incidence
         flat, twice = starts.reshape(-1, 3), np.repeat(points, 2, axis=0)
-        feet = site_fields(it.boundary, it.sites, which, twice, flat).foot
+        feet = site_fields(it.context, which, twice, flat).foot
         # where the edge keeps its distance over a long way Newton's method leaves the place
         lost = np.flatnonzero(norm(feet - flat) > self.wells.apart)
         if len(lost):

@@ -166,7 +166,7 @@ class SheetDomains:
             curve = self._boundary.edges[it.index].curve
             if isinstance(curve, Circle):
                 return axial_split(points, curve.centre, cross(curve.x, curve.y))[1]
-        return locus_gap(self._boundary, self._incidence.sites, (site,), points)
+        return locus_gap(self._incidence.context, (site,), points)
 
     def _domain(self, site: int, points: Array, feet: Array, surface: SheetSurface) -> Domain:
         it = self._incidence.sites[site]

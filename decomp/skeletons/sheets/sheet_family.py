@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.skeletons.balls.equidistance import placed_between
 from decomp.skeletons.balls.fields import Field, site_fields
-from decomp.skeletons.balls.supports import FACE, support_table
+from decomp.skeletons.balls.supports import FACE
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.vectors import Array, Bools, Ints, norm
 
@@ -32,7 +32,7 @@ class SheetFamily:
         """Points (k, 3), each moved onto a given member (k,), and whether that succeeded (k,)."""
         it = self._incidence
         feet = np.repeat(points[:, None], 2, axis=1)
-        found = placed_between(it.boundary, it.sites, self._sites[which], points, feet)
+        found = placed_between(it.context, self._sites[which], points, feet)
         return found.points, found.converged
 
     def normal(self, which: Ints, points: Array) -> tuple[Array, Bools]:
@@ -41,7 +41,7 @@ class SheetFamily:
         Where one is not, its member has to be asked by itself.
         """
         it, pairs = self._incidence, self._sites[which]
-        one, two = (site_fields(it.boundary, it.sites, pairs[:, k], points, points) for k in (0, 1))
+        one, two = (site_fields(it.context, pairs[:, k], points, points) for k in (0, 1))
         found = difference(it, pairs, (one, two))
         length = norm(found)
         good = length > CLEAR
@@ -56,7 +56,7 @@ def difference(incidence: Incidence, pairs: Ints, fields: tuple[Field, Field]) -
     """
     one, two = fields
     found = one.gradient - two.gradient
-    kinds = support_table(incidence.boundary, incidence.sites).kinds
+    kinds = incidence.context.table.kinds
     for column, field in enumerate(fields):
         on = np.abs(field.distance) <= CLEAR * incidence.boundary.diagonal
         found[on & (kinds[pairs[:, column]] != FACE)] = 0.0

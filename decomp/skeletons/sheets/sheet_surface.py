@@ -13,7 +13,7 @@ from decomp.errors import GeometryError
 from decomp.skeletons.balls.equidistance import Equidistant, placed_between
 from decomp.skeletons.balls.fields import Field, site_fields
 from decomp.skeletons.balls.loci import on_locus
-from decomp.skeletons.balls.supports import SEARCHED, support_table
+from decomp.skeletons.balls.supports import SEARCHED
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.sheets.sheet_family import CLEAR, SheetFamily, difference
 from decomp.vectors import Array, Bools, Ints, norm
@@ -88,7 +88,7 @@ class SheetSurface:
         """Points moved to where they are as near to both sites, found from feet (k, 2, 3)."""
         it = self.incidence
         which: Ints = np.tile(np.array(self.sites), (len(points), 1))
-        return placed_between(it.boundary, it.sites, which, points, feet)
+        return placed_between(it.context, which, points, feet)
 
     def normal(self, points: Array) -> Array:
         """Unit normals (k, 3): the difference of the distances' gradients.
@@ -121,7 +121,7 @@ class SheetSurface:
         a, b = one.gradient, two.gradient
         angle = 2 * np.arctan2(norm(a - b), norm(a + b))
         lost = (norm(a) < CLEAR) | (norm(b) < CLEAR)
-        lost |= on_locus(it.boundary, it.sites, self.sites, points, CLEAR)
+        lost |= on_locus(it.context, self.sites, points, CLEAR)
         return np.where(lost, np.nan, angle), one.distance
 
     def _difference(self, points: Array, feet: Array) -> Array:
@@ -132,8 +132,7 @@ class SheetSurface:
         it = self.incidence
         one, two = (
             site_fields(
-                it.boundary,
-                it.sites,
+                it.context,
                 np.full(len(points), site, dtype=np.int64),
                 points,
                 feet[:, column],
@@ -162,7 +161,7 @@ class SheetSurface:
         found, replaced = np.array(feet), np.zeros(len(points), dtype=np.bool_)
         for column, site in enumerate(self.sites):
             which: Ints = np.full(len(points), site, dtype=np.int64)
-            known = site_fields(it.boundary, it.sites, which, points, feet[:, column])
+            known = site_fields(it.context, which, points, feet[:, column])
             gap = known.distance - norm(points - other[:, column])
             nearer = gap > near
             found[nearer, column] = other[nearer, column]
@@ -172,7 +171,7 @@ class SheetSurface:
     @cached_property
     def _curved(self) -> bool:
         """Whether a site is a curve on which feet are searched from known ones."""
-        table = support_table(self.incidence.boundary, self.incidence.sites)
+        table = self.incidence.context.table
         return bool(np.isin(table.kinds[list(self.sites)], SEARCHED).any())
 
     @cached_property

@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.balls import Balls, inscribed_balls
 from decomp.skeletons.curves.incidence import Incidence
@@ -22,8 +21,8 @@ NEARER = 0.3
 class SheetTests:
     """Exact queries about the sheets of one region."""
 
-    def __init__(self, index: SiteIndex, incidence: Incidence) -> None:
-        self._index, self._incidence = index, incidence
+    def __init__(self, incidence: Incidence) -> None:
+        self._incidence, self._index = incidence, incidence.context.index
         self._size = incidence.boundary.diagonal
 
     def name(self, site: int) -> str:
@@ -40,8 +39,7 @@ class SheetTests:
         return np.asarray(on)
 
     def balls(self, feet: Array, inward: Array) -> Balls:
-        region = self._incidence.region
-        return inscribed_balls(self._index, self._incidence.boundary, region, feet, inward)
+        return inscribed_balls(self._incidence.context, feet, inward)
 
     def touches(self, site: int, other: int, feet: Array, inward: Array) -> Bools:
         """Whether feet (k, 3) are on a site and the maximal balls there touch another."""

@@ -16,7 +16,6 @@ from scipy.sparse.csgraph import connected_components  # type: ignore[import-unt
 from decomp.attempts import Way, first_of
 from decomp.complex.plane.planar import MergedError, SparseError, Triangulation
 from decomp.errors import GeometryError
-from decomp.sites import SiteIndex
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.sheets.component_votes import MissingCurveError, kept_components
 from decomp.skeletons.sheets.drawn_sheets import (
@@ -42,7 +41,6 @@ class SheetMaker:
     """Triangulates the sheets of one region over given vertices.
 
     Args:
-        index: nearest-site queries.
         incidence: of the region.
         points: (n, 3) all vertices.
         add: makes a point (3,) a vertex and returns its number.
@@ -51,7 +49,6 @@ class SheetMaker:
 
     def __init__(
         self,
-        index: SiteIndex,
         incidence: Incidence,
         points: Array,
         add: Callable[[Array], int],
@@ -60,7 +57,7 @@ class SheetMaker:
         self._finest = finest
         self._incidence, self._points = incidence, points
         self._add = add
-        self._tests = SheetTests(index, incidence)
+        self._tests = SheetTests(incidence)
         self._domains = SheetDomains(incidence, self._tests)
 
     def sheets(

@@ -38,7 +38,7 @@ class SeamStops:
 
     def __init__(self, points: SeamPoints) -> None:
         self._points, self._size = points, points.size
-        self._walls = Walls(points.boundary, points.index.sites, points.table)
+        self._walls = Walls(points.context)
 
     def crossing(self, stretch: Stretch, count: int, contact: int) -> tuple[int, State] | None:
         """Where a contact's foot leaves its site near the last of `count` rows.
@@ -55,7 +55,7 @@ class SeamStops:
         if float(norm(state.feet[contact] - spot)) <= self._points.tolerances.same:
             state.feet[contact] = spot
         state = self._exactly(state)
-        return stretch.cut(base, state, self._size), state
+        return stretch.cut(base, state), state
 
     def joining(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where a further contact joins those of a seam, near the last of `count` rows.
@@ -80,7 +80,7 @@ class SeamStops:
                     first, best = ahead, (base, state)
         if best is None:
             return None
-        return stretch.cut(best[0], best[1], self._size), best[1]
+        return stretch.cut(best[0], best[1]), best[1]
 
     def fin(self, stretch: Stretch, count: int) -> tuple[int, State]:
         """Where two contacts run together, just behind the last of `count` rows.
@@ -91,22 +91,14 @@ class SeamStops:
         """
         last = stretch.state(count - 1)
         for length in (1e-6, 1e-5):
-            if not advance(
-                self._points.table,
-                stretch.which,
-                stretch.track,
-                count - 1,
-                count,
-                length * self._size,
-                self._size,
-                False,
-            ):
+            step = length * self._size
+            if not advance(self._points.table, stretch.track, count - 1, count, step, False):
                 continue
             for contact in nearest_pair(last):
                 found = self._wall_near(stretch, count, stretch.sites[contact], last.feet[contact])
                 if found is not None:
                     base, state = found[0], self._exactly(found[1])
-                    return stretch.cut(base, state, self._size), state
+                    return stretch.cut(base, state), state
         return self.merging(stretch, count) or (count, last)
 
     def _exactly(self, state: State) -> State:
@@ -120,7 +112,7 @@ class SeamStops:
         """
         last = stretch.state(count - 1)
         end = at_vertex(self._points, last, nearest_pair(last), AT_VERTEX)
-        return None if end is None else (stretch.cut(count - 1, end, self._size), end)
+        return None if end is None else (stretch.cut(count - 1, end), end)
 
     def landing(self, stretch: Stretch, count: int) -> tuple[int, State] | None:
         """Where a seam ends on the reflexive locus of a face that its edges bound.
@@ -130,8 +122,7 @@ class SeamStops:
         spare, last = count + 1, stretch.state(count - 1)
 
         def ahead(length: float) -> State | None:
-            rows = stretch.which, stretch.track, count - 1, spare
-            if not advance(self._points.table, *rows, length, self._size, False):
+            if not advance(self._points.table, stretch.track, count - 1, spare, length, False):
                 return None
             return stretch.state(spare)
 
@@ -187,22 +178,10 @@ class SeamStops:
                 low = 0.0 if base else -1e-3 * high - 1e-6 * self._size
                 spot = np.array(foot)
                 high = 1.02 * high + 1e-6 * self._size
-                found = cross(
-                    self._points.table,
-                    stretch.which,
-                    stretch.track,
-                    base,
-                    spare,
-                    low,
-                    high,
-                    spot,
-                    wall.edge,
-                    wall.carrier,
-                    wall.vertex,
-                    self._size,
-                )
+                between = low, high
+                found = cross(self._points.table, wall, stretch.track, base, spare, between, spot)
                 if found == JOINS:
-                    found = self._arrive(stretch, base, spare, (low, high), wall, foot, spot)
+                    found = self._arrive(stretch, base, spare, between, wall, foot, spot)
                 if found == MISSED or self._walls.beyond(wall, spot) > self._points.tolerances.same:
                     continue
                 off = float(norm(spot - foot))
@@ -226,17 +205,7 @@ class SeamStops:
         def gap(length: float) -> float:
             spot[:] = foot
             good, value = gap_ahead(
-                self._points.table,
-                stretch.which,
-                stretch.track,
-                base,
-                spare,
-                length,
-                spot,
-                wall.edge,
-                wall.carrier,
-                wall.vertex,
-                self._size,
+                self._points.table, wall, stretch.track, base, spare, length, spot
             )
             return value if good else np.nan
 

@@ -75,7 +75,7 @@ def _line_of_normals(points: SeamPoints, sites: list[int], v: Array) -> Array | 
     """The direction in which feet of sites stay at a vertex of theirs, if there is one only."""
     boundary, rows = points.boundary, []
     for number in sites:
-        site = points.index.sites[number]
+        site = points.context.sites[number]
         if site.kind is SiteKind.EDGE:
             curve = boundary.edges[site.index].curve
             tangent = curve.derivative(curve.parameter(v))

@@ -8,19 +8,22 @@ at the wall, while the two sites' distances only touch there.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.boundary.topology import Convexity
 from decomp.carriers.compiled_carriers import normal
 from decomp.kernels.compiled import inner, scalar
-from decomp.sites.site import Site, SiteKind
+from decomp.kernels.records import Record
+from decomp.sites.site import SiteKind
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.balls.supports import SupportTable, support, tangent_at
 from decomp.skeletons.seams.steps.stepping import Track, advance
-from decomp.vectors import Array, Ints
+from decomp.vectors import Array
 
 ROUNDS = 80
+"""Most steps of the search for a crossing."""
 ON_WALL = 1e-16
+"""A point nearer to a wall than this part of the size is on it."""
 ALONG = 1e-13
 """Both ends of a step nearer to a wall than this part of the size: it runs along the wall."""
 NO_ROW = -1
@@ -29,7 +32,7 @@ MISSED, CROSSED, JOINS = 0, 1, 2
 
 
 @dataclass(frozen=True)
-class Wall:
+class Wall(Record):
     """A wall between two neighbouring sites, as rows of the region's supports.
 
     Args:
@@ -46,10 +49,9 @@ class Wall:
 class Walls:
     """The walls of all sites of a region."""
 
-    def __init__(
-        self, boundary: RegionBoundary, sites: Sequence[Site], table: SupportTable
-    ) -> None:
-        self._boundary, self._sites, self._table = boundary, sites, table
+    def __init__(self, context: RegionContext) -> None:
+        boundary, table = context.boundary, context.table
+        self._boundary, self._sites, self._table = boundary, context.sites, table
         self._of_face: dict[int, list[Wall]] = {}
         self._of_vertex: dict[int, list[Wall]] = {}
         for number, edge in enumerate(boundary.edges):
@@ -90,20 +92,12 @@ class Walls:
 
 
 @inner
-def wall_gap(
-    table: SupportTable,
-    edge: int,
-    carrier: int,
-    vertex: int,
-    x: float,
-    y: float,
-    z: float,
-    spot: Array,
-) -> float:
+def wall_gap(table: SupportTable, wall: Wall, x: float, y: float, z: float, spot: Array) -> float:
     """On which side of a wall a point lies.
 
     `spot` (3,) is a point of the edge close by; the one there, or the vertex, is put into it.
     """
+    edge, vertex = wall.edge, wall.vertex
     if vertex != NO_ROW:
         data = table.data
         qx, qy, qz = data[vertex, 0], data[vertex, 1], data[vertex, 2]
@@ -113,71 +107,56 @@ def wall_gap(
     _, _, _, _, qx, qy, qz = support(table, edge, x, y, z, spot[0], spot[1], spot[2])
     spot[0], spot[1], spot[2] = qx, qy, qz
     tx, ty, tz = tangent_at(table, edge, qx, qy, qz)
-    nx, ny, nz = normal(table.carriers, carrier, qx, qy, qz)
+    nx, ny, nz = normal(table.carriers, wall.carrier, qx, qy, qz)
     cx, cy, cz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
     return (x - qx) * cx + (y - qy) * cy + (z - qz) * cz
 
 
 @scalar
 def gap_ahead(
-    table: SupportTable,
-    which: Ints,
-    track: Track,
-    here: int,
-    row: int,
-    step: float,
-    spot: Array,
-    edge: int,
-    carrier: int,
-    vertex: int,
-    size: float,
+    table: SupportTable, wall: Wall, track: Track, here: int, row: int, step: float, spot: Array
 ) -> tuple[bool, float]:
     """Put the point of a seam a step ahead of row `here` into another row.
 
     Returns:
         Whether there is one, and on which side of the wall it lies.
     """
-    if not advance(table, which, track, here, row, step, size, False):
+    if not advance(table, track, here, row, step, False):
         return False, 0.0
     x, y, z = track.points[row, 0], track.points[row, 1], track.points[row, 2]
-    return True, wall_gap(table, edge, carrier, vertex, x, y, z, spot)
+    return True, wall_gap(table, wall, x, y, z, spot)
 
 
 @scalar
 def cross(
     table: SupportTable,
-    which: Ints,
+    wall: Wall,
     track: Track,
     here: int,
     row: int,
-    low: float,
-    high: float,
+    between: tuple[float, float],
     spot: Array,
-    edge: int,
-    carrier: int,
-    vertex: int,
-    size: float,
 ) -> int:
     """Put the point where a seam crosses a wall into a row of a track.
 
-    It lies between steps `low` and `high` from row `here`; found by regula falsi (Illinois). `spot`
-    (3,) is a point of the wall's edge close by, and then the point there.
+    It lies between two steps from row `here`; found by regula falsi (Illinois). `spot` (3,) is a
+    point of the wall's edge close by, and then the point there.
 
     Returns:
         CROSSED if it was found, JOINS if the place is to be read off (`arriving`), or MISSED.
     """
-    good, fl = gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)
+    low, high = between
+    along, on_wall = ALONG * track.contacts.size, ON_WALL * track.contacts.size
+    good, fl = gap_ahead(table, wall, track, here, row, low, spot)
     if not good:
         return MISSED
-    good, fh = gap_ahead(table, which, track, here, row, high, spot, edge, carrier, vertex, size)
-    if not good or (abs(fl) <= ALONG * size and abs(fh) <= ALONG * size):
+    good, fh = gap_ahead(table, wall, track, here, row, high, spot)
+    if not good or (abs(fl) <= along and abs(fh) <= along):
         return MISSED
-    if abs(fh) <= ALONG * size:
+    if abs(fh) <= along:
         return JOINS
-    if abs(fl) <= ON_WALL * size:
-        if gap_ahead(table, which, track, here, row, low, spot, edge, carrier, vertex, size)[0]:
-            return CROSSED
-        return MISSED
+    if abs(fl) <= on_wall:
+        return CROSSED if gap_ahead(table, wall, track, here, row, low, spot)[0] else MISSED
     if not fl * fh < 0.0:
         return MISSED
     side = 0
@@ -185,10 +164,10 @@ def cross(
         step = high - fh * (high - low) / (fh - fl)
         if not min(low, high) < step < max(low, high):
             break
-        good, f = gap_ahead(table, which, track, here, row, step, spot, edge, carrier, vertex, size)
+        good, f = gap_ahead(table, wall, track, here, row, step, spot)
         if not good:
             return MISSED
-        if abs(f) <= ON_WALL * size:
+        if abs(f) <= on_wall:
             break
         if f * fh > 0.0:
             high, fh = step, f

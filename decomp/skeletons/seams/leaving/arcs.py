@@ -10,22 +10,22 @@ and what goes on along the flat facet's normal is a seam between the ends.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq  # type: ignore[import-untyped]
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import Convexity, Face, RegionBoundary
+from decomp.boundary.topology import Convexity, Face
 from decomp.carriers import Carrier, Cone, Cylinder, Torus
 from decomp.curves.circle import Circle
-from decomp.sites.site import Site, SiteKind, faces_at
+from decomp.sites.site import SiteKind, faces_at
 from decomp.skeletons.balls.contacts import Contacts
 from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.balls.loci import axis_gap
 from decomp.skeletons.balls.probing import TOWARDS
-from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.leaving.local import SeamRay, seam_rays
 from decomp.skeletons.seams.leaving.patches import patch_rays
 from decomp.skeletons.seams.steps.states import State
@@ -46,17 +46,13 @@ class Arcs:
     """The arcs along which balls of one region touch its faces.
 
     Args:
-        boundary: of the region.
-        sites: all sites.
-        region: its index.
-        queries: of the region.
+        context: of the region.
     """
 
-    def __init__(
-        self, boundary: RegionBoundary, sites: Sequence[Site], region: int, queries: RegionQueries
-    ) -> None:
-        self._boundary, self._sites, self._queries = boundary, sites, queries
-        self._region = region
+    def __init__(self, context: RegionContext) -> None:
+        boundary = context.boundary
+        self._context, self._boundary = context, boundary
+        self._sites, self._queries = context.sites, context.queries
         self._size, self._near = boundary.diagonal, boundary.tolerances.on_locus
         self._beside: dict[int, list[int]] = {}
         for edge in boundary.edges:
@@ -86,8 +82,7 @@ class Arcs:
         if not balls:
             return touching, self._of_arcs(touching, point)
         single = [k for k, sites in enumerate(touching.sites) if not self._is_on(sites, balls)]
-        of_patches = self._boundary, self._sites, self._region, self._queries, balls
-        return patch_rays(*of_patches, touching, single)
+        return patch_rays(self._context, balls, touching, single)
 
     def touches_along(self, touching: Contacts, point: Array) -> bool:
         """Whether the ball about a point touches a face all along an arc."""
@@ -188,9 +183,7 @@ class Arcs:
 
         def gap(way: float) -> float:
             at = centre + way * axis
-            field = site_fields(
-                self._boundary, self._sites, np.array(others[:1]), at[None], foot[None]
-            )
+            field = site_fields(self._context, np.array(others[:1]), at[None], foot[None])
             return float(field.distance[0]) - abs(float(carrier.signed_distance(at)))
 
         step = NEAR * self._size

@@ -111,7 +111,7 @@ def _unfolded(
 
     At p, an end of the edge's sheet with itself, both are one, from which neither is found alone.
     """
-    sites = [points.index.sites[k] for k in state.sites]
+    sites = [points.context.sites[k] for k in state.sites]
     edges = [points.boundary.edges[s.index] for s in sites if s.kind is SiteKind.EDGE]
     if all(isinstance(edge.curve, Line) for edge in edges):
         return None

@@ -13,12 +13,12 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError  # type: ignore[import-untyped]
 
-from decomp.boundary.topology import Convexity, RegionBoundary
+from decomp.boundary.topology import Convexity
 from decomp.curves.circle import Circle
-from decomp.sites.site import Site, SiteKind
+from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.contacts import Contacts
 from decomp.skeletons.balls.probing import TOWARDS
-from decomp.skeletons.balls.queries import RegionQueries
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.leaving.local import SeamRay
 from decomp.vectors import Array, Ints, frame, norm
 
@@ -34,27 +34,18 @@ ALIKE = 0.9995
 
 
 def patch_rays(
-    boundary: RegionBoundary,
-    sites: Sequence[Site],
-    region: int,
-    queries: RegionQueries,
-    faces: set[int],
-    touching: Contacts,
-    single: Sequence[int],
+    context: RegionContext, faces: set[int], touching: Contacts, single: Sequence[int]
 ) -> tuple[Contacts, list[SeamRay]]:
     """Contacts that seams leave with, and the seams.
 
     Args:
-        boundary: of the region.
-        sites: all sites.
-        region: its index.
-        queries: of the region.
+        context: of the region.
         faces: the faces whose centre it is.
         touching: all contacts.
         single: those that are on no edge and vertex of the faces.
     """
     centre = touching.feet[0] + touching.radius * touching.gradients[0]
-    corners = _Corners(boundary, sites, region, faces, touching, single)
+    corners = _Corners(context, faces, touching, single)
     gradients = (centre - corners.feet) / touching.radius
     try:
         hull = ConvexHull(gradients)
@@ -69,8 +60,8 @@ def patch_rays(
         kinds = frozenset[int]().union(*(corners.kinds[k] for k in simplex))
         # the middle of the cap is on the face in patches, farther away in gaps
         towards = centre + TOWARDS * touching.radius * way
-        reach = float(queries.nearest(towards[None]).distance[0])
-        if reach <= (1 - TOWARDS) * touching.radius + ON_BOUNDARY * boundary.diagonal:
+        reach = float(context.queries.nearest(towards[None]).distance[0])
+        if reach <= (1 - TOWARDS) * touching.radius + ON_BOUNDARY * context.size:
             continue
         if not any(float(w @ way) > ALIKE for k, w, _ in chosen if k == kinds):
             chosen.append((kinds, way, simplex))
@@ -104,14 +95,13 @@ class _Corners:
 
     def __init__(
         self,
-        boundary: RegionBoundary,
-        sites: Sequence[Site],
-        region: int,
+        context: RegionContext,
         faces: set[int],
         touching: Contacts,
         single: Sequence[int],
     ) -> None:
-        number = {(s.kind, s.index): k for k, s in enumerate(sites) if s.region == region}
+        boundary, sites = context.boundary, context.sites
+        number = {(s.kind, s.index): k for k, s in enumerate(sites) if s.region == context.region}
         edges = [
             (k, edge)
             for k, edge in enumerate(boundary.edges)

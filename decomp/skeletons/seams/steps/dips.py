@@ -9,6 +9,7 @@ below the tolerance both touch: along either the other's site counts as never ne
 from __future__ import annotations
 
 from math import sqrt
+from typing import NamedTuple
 
 from decomp.kernels.compiled import inner
 from decomp.sites.octree import locate
@@ -16,7 +17,6 @@ from decomp.skeletons.balls.probing import APART, Probe, candidate_foot, inside,
 from decomp.skeletons.balls.supports import SupportTable
 from decomp.skeletons.seams.steps.stepping import Track, advance
 from decomp.tolerance import TOLERANCE
-from decomp.vectors import Ints
 
 PLACES = 4
 """Candidates are those of the leaves at so many places along the step, with its ends."""
@@ -28,28 +28,37 @@ FARTHEST = 2.0
 """How fast a gap can change along a seam."""
 
 
+class Dip(NamedTuple):
+    """A step on which a candidate's gap may fall and grow again.
+
+    Args:
+        candidate: its number.
+        length: of the step.
+        gap, slope: where it begins.
+        far_gap, far_slope: where it ends.
+    """
+
+    candidate: int
+    length: float
+    gap: float
+    slope: float
+    far_gap: float
+    far_slope: float
+
+
 @inner
 def dip_on(
-    table: SupportTable,
-    probe: Probe,
-    which: Ints,
-    track: Track,
-    here: int,
-    row: int,
-    length: float,
-    size: float,
+    table: SupportTable, probe: Probe, track: Track, here: int, row: int, length: float
 ) -> float:
     """Where, on a step, something is nearer than the seam's sites though it is at neither end.
 
     Args:
         table: supports.
         probe: queries.
-        which: supports (m,) of the seam's contacts.
         track: holds the seam's points; the row behind `row` is overwritten.
         here: row in which the step begins.
         row: in which it ends, behind that.
         length: of the step.
-        size: of the region.
 
     Returns:
         A length of a step from row `here` at whose end something is nearer, 0 if there is none.
@@ -68,31 +77,21 @@ def dip_on(
         before = leaf
         for m in range(probe.candidates.first[leaf], probe.candidates.first[leaf + 1]):
             k = probe.candidates.items[m]
-            known, gap, slope = gap_to(probe, k, track, here, len(which))
+            known, gap, slope = gap_to(probe, k, track, here)
             if known or slope >= 0.0 or gap > FARTHEST * length:
                 continue
-            known, far_gap, far_slope = gap_to(probe, k, track, row, len(which))
+            known, far_gap, far_slope = gap_to(probe, k, track, row)
             if known or far_slope <= 0.0:
                 continue
-            found = _nearer(
-                table,
-                probe,
-                which,
-                track,
-                here,
-                row + 1,
-                k,
-                length,
-                (gap, slope, far_gap, far_slope),
-                size,
-            )
+            dip = Dip(k, length, gap, slope, far_gap, far_slope)
+            found = _nearer(table, probe, track, here, row + 1, dip)
             if found > 0.0:
                 return found
     return 0.0
 
 
 @inner
-def gap_to(probe: Probe, k: int, track: Track, row: int, count: int) -> tuple[bool, float, float]:
+def gap_to(probe: Probe, k: int, track: Track, row: int) -> tuple[bool, float, float]:
     """How much farther candidate k is than the sites of the seam's point in a row.
 
     Returns:
@@ -100,9 +99,9 @@ def gap_to(probe: Probe, k: int, track: Track, row: int, count: int) -> tuple[bo
     """
     x, y, z = track.points[row, 0], track.points[row, 1], track.points[row, 2]
     qx, qy, qz = candidate_foot(probe, k, x, y, z)
-    radius = track.radius[row]
+    radius, feet, count = track.radius[row], track.contacts.feet, track.contacts.count
     for c in range(row * count, row * count + count):
-        dx, dy, dz = qx - track.feet[c, 0], qy - track.feet[c, 1], qz - track.feet[c, 2]
+        dx, dy, dz = qx - feet[c, 0], qy - feet[c, 1], qz - feet[c, 2]
         if dx * dx + dy * dy + dz * dz <= (APART * radius) ** 2:
             return True, 0.0, 0.0
     wx, wy, wz = x - qx, y - qy, z - qz
@@ -114,70 +113,58 @@ def gap_to(probe: Probe, k: int, track: Track, row: int, count: int) -> tuple[bo
 
 
 @inner
-def only_touches(
-    probe: Probe, track: Track, here: int, row: int, count: int, length: float, size: float
-) -> bool:
+def only_touches(probe: Probe, track: Track, here: int, row: int, length: float) -> bool:
     """Whether what is nearer at a row than the seam's sites is so by no more than the tolerance.
 
     All along the dip, whose depth is that of a parabola: its gap is known in the row, and its
     slopes there and a length before, in row `here`.
     """
     x, y, z = track.points[row, 0], track.points[row, 1], track.points[row, 2]
-    hit = nearest(probe, x, y, z)
-    if hit.distance < track.radius[row] - TOLERANCE * size:
+    hit, zero = nearest(probe, x, y, z), TOLERANCE * track.contacts.size
+    if hit.distance < track.radius[row] - zero:
         return False
-    before, _, slope = gap_to(probe, hit.candidate, track, here, count)
-    known, gap, far_slope = gap_to(probe, hit.candidate, track, row, count)
+    before, _, slope = gap_to(probe, hit.candidate, track, here)
+    known, gap, far_slope = gap_to(probe, hit.candidate, track, row)
     if before or known:
         return False
     bend = (far_slope - slope) / length
-    return bool(bend > 0.0 and gap - far_slope**2 / (2.0 * bend) >= -TOLERANCE * size)
+    return bool(bend > 0.0 and gap - far_slope**2 / (2.0 * bend) >= -zero)
 
 
 @inner
 def _nearer(
-    table: SupportTable,
-    probe: Probe,
-    which: Ints,
-    track: Track,
-    here: int,
-    spare: int,
-    k: int,
-    length: float,
-    ends: tuple[float, float, float, float],
-    size: float,
+    table: SupportTable, probe: Probe, track: Track, here: int, spare: int, dip: Dip
 ) -> float:
-    """The length of a step at whose end candidate k is nearer than the seam's sites, 0 if none.
+    """The length of a step at whose end a candidate is nearer than the seam's sites, 0 if none.
 
     Args:
-        table, probe, which, track, here, length, size: as above.
+        table, probe, track, here: as above.
         spare: a row for points in between.
-        k: whose gap falls where the step begins and grows where it ends.
-        ends: gap and slope there, and here.
+        dip: of the candidate; its gap falls where the step begins and grows where it ends.
     """
-    low, high = 0.0, length
-    gap, slope, far_gap, far_slope = ends
+    low, high = 0.0, dip.length
+    gap, slope, far_gap, far_slope = dip.gap, dip.slope, dip.far_gap, dip.far_slope
+    zero = TOLERANCE * track.contacts.size
     for _ in range(ROUNDS):
         # where the tangents at both ends meet; a gap that bends upwards is above them
         way = high - low
         bound = gap + slope * (far_gap - gap - far_slope * way) / (slope - far_slope)
-        if bound > -TOLERANCE * size:
+        if bound > -zero:
             return 0.0
         share = slope / (slope - far_slope)
         middle = low + min(max(share, INWARDS), 1.0 - INWARDS) * way
         if not low < middle < high:
             return 0.0
-        if not advance(table, which, track, here, spare, middle, size, True):
+        if not advance(table, track, here, spare, middle, True):
             return 0.0
-        known, least, turn = gap_to(probe, k, track, spare, len(which))
+        known, least, turn = gap_to(probe, dip.candidate, track, spare)
         if known:
             return 0.0
-        if least < -TOLERANCE * size:
+        if least < -zero:
             x, y, z = track.points[spare, 0], track.points[spare, 1], track.points[spare, 2]
             if not inside(probe, x, y, z):
                 return 0.0
-            away = nearest(probe, x, y, z).distance
-            nearer = away < track.radius[spare] - TOLERANCE * size
+            nearer = nearest(probe, x, y, z).distance < track.radius[spare] - zero
             return middle if nearer else 0.0
         if turn < 0.0:
             low, gap, slope = middle, least, turn

@@ -6,15 +6,12 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from decomp.boundary.topology import RegionBoundary
 from decomp.carriers import Carrier
-from decomp.sites import SiteIndex
 from decomp.sites.site import SiteKind
 from decomp.skeletons.balls.contacts import ContactFinder
 from decomp.skeletons.balls.loci import on_locus
 from decomp.skeletons.balls.probing import TOWARDS
-from decomp.skeletons.balls.queries import region_queries
-from decomp.skeletons.balls.supports import support_table
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.seams.steps.states import State
 from decomp.skeletons.seams.steps.stepping import settle
 from decomp.skeletons.seams.steps.stretch import Stretch
@@ -30,25 +27,23 @@ TURNS = 6
 class SeamPoints:
     """Points of the seams of one region."""
 
-    def __init__(self, index: SiteIndex, boundary: RegionBoundary, region: int) -> None:
-        self.index, self.boundary, self.region = index, boundary, region
-        self.size, self.tolerances = boundary.diagonal, boundary.tolerances
-        self.table = support_table(boundary, index.sites)
-        self.contacts = ContactFinder(index, boundary, region)
-        self.queries = region_queries(index, region)
+    def __init__(self, context: RegionContext) -> None:
+        self.context, self.contacts = context, ContactFinder(context)
+        self.boundary, self.region = context.boundary, context.region
+        self.size, self.tolerances = context.size, context.tolerances
+        self.table, self.queries = context.table, context.queries
 
     def names(self, sites: Sequence[int]) -> list[str]:
         """Of some sites, for messages."""
-        return [self.index.sites[site].name for site in sites]
+        return [self.context.sites[site].name for site in sites]
 
     def state(self, sites: Sequence[int], point: Array, feet: Array, along: Array) -> State | None:
         """The point of a seam next to `point`, travelling in the sense of `along`."""
-        at = Stretch(tuple(sites), 1)
-        at.track.feet[:] = feet
-        which = np.array(sites, dtype=np.int64)
+        at = Stretch(tuple(sites), 1, self.size)
+        at.track.contacts.feet[:] = feet
         x, y, z = (float(v) for v in point)
         dx, dy, dz = (float(v) for v in along)
-        if not settle(self.table, which, at.track, 0, x, y, z, dx, dy, dz, self.size, True):
+        if not settle(self.table, at.track, 0, (x, y, z), (dx, dy, dz), True):
             return None
         return at.state(0)
 
@@ -94,8 +89,8 @@ class SeamPoints:
         bounded = {
             face
             for site in state.sites
-            if self.index.sites[site].kind is SiteKind.EDGE
-            for face in self.boundary.edges[self.index.sites[site].index].faces
+            if self.context.sites[site].kind is SiteKind.EDGE
+            for face in self.boundary.edges[self.context.sites[site].index].faces
         }
         found: list[Callable[[Array], float]] = []
         for number in sorted(bounded):
@@ -114,4 +109,4 @@ class SeamPoints:
     def on_locus(self, sites: Sequence[int], point: Array) -> bool:
         """Whether a point is a centre of curvature of one of the faces among some sites."""
         own = [k for k in sites if k >= 0]
-        return bool(on_locus(self.boundary, self.index.sites, own, point[None], ON_LOCUS)[0])
+        return bool(on_locus(self.context, own, point[None], ON_LOCUS)[0])

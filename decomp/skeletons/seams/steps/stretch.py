@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from decomp.skeletons.seams.steps.states import Run, State
 from decomp.skeletons.seams.steps.stepping import track
 from decomp.vectors import norm
@@ -18,19 +16,19 @@ class Stretch:
     Args:
         sites: the site of each contact.
         length: the number of rows.
+        size: of the region.
     """
 
-    def __init__(self, sites: tuple[int, ...], length: int) -> None:
-        self.sites = sites
-        self.which = np.array(sites, dtype=np.int64)
-        self.track = track(len(sites), length)
+    def __init__(self, sites: tuple[int, ...], length: int, size: float) -> None:
+        self.sites, self._size = sites, size
+        self.track = track(sites, length, size)
 
     def put(self, row: int, state: State) -> None:
         """Put a point into a row."""
         m, room = len(self.sites), self.track
         room.points[row], room.radius[row] = state.point, state.radius
         room.tangents[row], room.slopes[row] = state.tangent, state.slope
-        room.feet[row * m : row * m + m] = state.feet
+        room.contacts.feet[row * m : row * m + m] = state.feet
 
     def state(self, row: int) -> State:
         """The point in a row."""
@@ -39,7 +37,7 @@ class Stretch:
             room.points[row].copy(),
             float(room.radius[row]),
             self.sites,
-            room.feet[row * m : row * m + m].copy(),
+            room.contacts.feet[row * m : row * m + m].copy(),
             room.tangents[row].copy(),
             float(room.slopes[row]),
         )
@@ -51,15 +49,15 @@ class Stretch:
             self.sites,
             room.points[:count].copy(),
             room.radius[:count].copy(),
-            room.feet[: count * m].reshape(count, m, 3).copy(),
+            room.contacts.feet[: count * m].reshape(count, m, 3).copy(),
         )
 
-    def cut(self, base: int, state: State, size: float) -> int:
+    def cut(self, base: int, state: State) -> int:
         """Put a point behind row `base`, instead of a row at it; return how many rows there are."""
         points, kept = self.track.points, base + 1
-        while kept > 1 and norm(points[kept - 1] - state.point) <= SAME * size:
+        while kept > 1 and norm(points[kept - 1] - state.point) <= SAME * self._size:
             kept -= 1
-        if kept > 1 or norm(points[0] - state.point) > SAME * size:
+        if kept > 1 or norm(points[0] - state.point) > SAME * self._size:
             kept += 1
         self.put(kept - 1, state)
         return kept
