@@ -27,6 +27,17 @@ PROBED_TOKENS = 20_000
 
 NUMBER = r"(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?+"
 
+MARKS: dict[str, str] = {
+    ";": "SEMI",
+    ",": "_COMMA",
+    "(": "_LPAR",
+    ")": "_RPAR",
+    "[": "_LSQB",
+    "]": "_RSQB",
+    "=": "_EQUALS",
+}
+"""Signs that are tokens in all formats, as their grammars call them."""
+
 
 def token_pattern(comment: str, number: str, others: str) -> re.Pattern[str]:
     """The pattern of one token after blanks and comments, with a named group per kind.

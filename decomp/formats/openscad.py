@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from decomp.csg.model import Model, Region
 from decomp.csg.solid import Solid
 from decomp.errors import FileError
-from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern
+from decomp.formats.grammar import MARKS, NUMBER, Language, numbers, parse, token_pattern
 from decomp.formats.openscad_shapes import EMPTY, PARAMETERS, Call, Circle, Fault, Shape, Shapes
 from decomp.formats.source import Source
 
@@ -33,15 +33,9 @@ LANGUAGE = Language(
         r"|(?P<MARK>[;,()=\[\]{}%#*!])",
     ),
     kinds={
-        ";": "SEMI",
-        ",": "_COMMA",
-        "(": "_LPAR",
-        ")": "_RPAR",
-        "[": "_LSQB",
-        "]": "_RSQB",
+        **MARKS,
         "{": "_LBRACE",
         "}": "_RBRACE",
-        "=": "_EQUALS",
         **dict.fromkeys("%#*!", "MODIFIER"),
     },
     words={

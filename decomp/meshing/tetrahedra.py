@@ -18,6 +18,7 @@ from decomp.meshing.naming.tagging import Tagger
 from decomp.meshing.preparation import Prepared, Progress
 from decomp.meshing.repairs.shortening import LONGEST, shortened, tightened
 from decomp.meshing.repairs.splitting import freed
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Ints
 
 FAR, AGAIN = 3.0, 0.9
@@ -75,12 +76,12 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     epsilon = raw.settings.epsilon
     part = classified(geometry, known, raw.points, raw.tets, epsilon)
     points, tets = _used(raw.points, raw.tets[part >= 0])
-    opener = Opener(geometry, given.surface, known, plan, given.elements, epsilon)
+    followed = Followed(geometry, given.surface, known, plan, given.elements, epsilon)
+    opener = Opener(followed)
     points, tets, part = opener.opened(points, tets, part[part >= 0])
     points, tets, part = freed(points, tets, part, known.region[known.cell])
     tell("projecting", 0.8)
-    tagger = Tagger(geometry, given.surface, known, plan, epsilon)
-    finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
+    tagger, finder = Tagger(followed), Finder(followed)
     tagged = tagger.tagged(points, part, faces_of(tets))
     aimed = given.asked
     for _ in range(CUTS):

@@ -14,15 +14,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
-from decomp.geometry import Geometry
 from decomp.meshes.faces import EDGES, OPPOSITE, edges_of, faces_of, least_dihedral
 from decomp.meshing.exact.layers import Across, Layer, across, layers
 from decomp.meshing.exact.targets import LINE, placed
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Bools, Ints
 
 REACH = 2.5
@@ -44,23 +41,14 @@ class Opener:
     """Opens the layers of one model's meshes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        epsilon: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._elements, self._epsilon = elements, epsilon
-        self._layers = layers(surface, plan)
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._cells = followed.geometry, followed.cells
+        self._plan, self._elements = followed.plan, followed.elements
+        self._epsilon = followed.epsilon
+        self._layers = layers(followed.surface, followed.plan)
 
     def opened(self, points: Array, tets: Ints, part: Ints) -> tuple[Array, Ints, Ints]:
         """Open all layers.

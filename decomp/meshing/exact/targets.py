@@ -15,11 +15,9 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
 from decomp.errors import GeometryError
-from decomp.geometry import Geometry
 from decomp.meshing.naming.tagging import Tagged
-from decomp.meshing.surface.cells import CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import locate
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Bools, Ints, norm
 
 BESIDE = 1e-9
@@ -70,35 +68,28 @@ class Finder:
     """Finds the targets of nodes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        epsilon: how far nodes are off at first.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._cells = geometry, cells
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._cells = followed.geometry, followed.cells
+        self._plan, self._elements = followed.plan, followed.elements
+        self._epsilon = followed.epsilon
         self._sites = {
-            patch: sites for region in surface.regions for patch, sites in region.sheets.items()
+            patch: sites
+            for region in followed.surface.regions
+            for patch, sites in region.sheets.items()
         }
-        self._plan, self._elements, self._epsilon = plan, elements, epsilon
         self._group: dict[int, tuple[int, ...]] = {
-            patch: own for own in plan.between.values() for patch in own
+            patch: own for own in self._plan.between.values() for patch in own
         }
         self._lines: dict[frozenset[int], list[int]] = {}
-        self._corners = [self._kinds(around) for around in plan.around_corner]
+        self._corners = [self._kinds(around) for around in self._plan.around_corner]
         self._corners_of: dict[int, list[int]] = {}
         for number, kinds in enumerate(self._corners):
             for kind in kinds:
                 self._corners_of.setdefault(kind, []).append(number)
-        for number, around in enumerate(plan.around_line):
+        for number, around in enumerate(self._plan.around_line):
             kinds = self._kinds(around)
             if len(kinds) > 1:
                 self._lines.setdefault(kinds, []).append(number)

@@ -6,10 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from decomp.geometry import Geometry
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
+from decomp.meshing.surface.followed import Followed
 from decomp.skeletons.certificate.distance import TriangleTree, triangle_distance, triangle_tree
 from decomp.vectors import Array, Ints, cross, dot, norm
 
@@ -24,22 +22,13 @@ class BoundaryTags:
     """Finds the patches of boundary triangles.
 
     Args:
-        geometry, surface: of the model.
-        cells: the cells that tetrahedra were classified by.
-        plan: the complex laid out for them.
-        epsilon: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._epsilon = plan, epsilon
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._surface = followed.geometry, followed.surface
+        self._cells, self._plan = followed.cells, followed.plan
+        self._epsilon = followed.epsilon
         self._trees: dict[int, TriangleTree] = {}
 
     def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.geometry import Geometry
-from decomp.meshing.surface.cells import CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import locate
+from decomp.meshing.surface.followed import Followed
 from decomp.skeletons.certificate.distance import triangle_distance, triangle_tree
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
@@ -23,22 +21,13 @@ class SheetTags:
     """Finds the sheets of triangles.
 
     Args:
-        geometry, surface: of the model.
-        cells: the cells that tetrahedra were classified by.
-        plan: the complex laid out for them.
-        epsilon: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._epsilon = plan, epsilon
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._surface = followed.geometry, followed.surface
+        self._cells, self._plan = followed.cells, followed.plan
+        self._epsilon = followed.epsilon
 
     def between(self, points: Array, triangles: Ints, sides: Ints) -> Ints:
         """The sheets of triangles between cells (k, 2) of one region.
