@@ -14,10 +14,13 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves.circle import Circle
 from decomp.curves.ellipse import Ellipse
 from decomp.curves.line import Line
+from decomp.tolerance import PARALLEL
 from decomp.vectors import Array, Bools, cross, norm
 
 TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """A rotation by odd angles, so that steps do not run along the model's own planes."""
+BESIDE_POINT = 1e-7
+"""Whether a point is on a face is asked this part of the scale beside it."""
 
 
 def region_bounds(
@@ -70,7 +73,7 @@ def _near_face(form: HalfSpaceForm, member: Member, face: RawFace, points: Array
     carrier = form.carriers[face.carrier]
     on = np.zeros(len(points), dtype=np.bool_)
     for step in np.concatenate([np.eye(3), -np.eye(3)]) @ TILT:
-        moved = carrier.project(points + 1e-7 * form.scale * step)
+        moved = carrier.project(points + BESIDE_POINT * form.scale * step)
         on |= member.is_face(face.carrier, face.outward, moved)
     return on
 
@@ -91,7 +94,7 @@ def _axis_points(carrier: Carrier) -> Array:
         case Torus():
             radial = units - (units @ carrier.axis)[:, None] * carrier.axis
             length = norm(radial)
-            flat = length > 1e-12
+            flat = length > PARALLEL
             spine = carrier.centre + carrier.major * radial[flat] / length[flat, None]
             both = [spine + s * carrier.minor * units[flat] for s in (1, -1)]
             top = carrier.centre + carrier.major * _ring(carrier.axis)

@@ -24,10 +24,13 @@ from decomp.curves.base import Curve
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
+from decomp.tolerance import PARALLEL, SAME_PARAMETER
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
 
 CLEAR = 1e-4
 """How far, in units of the reach, rays keep away from vertices where they can."""
+BEYOND_EDGE = (1e-2, 1e-3, 1e-4)
+"""A point that no face covers is looked for beyond edges, these parts of the radius off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +90,7 @@ class Walker:
         for half in (h for loop in self.loops.loops for h in loop):
             edge = self.edges[half.edge]
             flank = next(f for f in edge.flanks if f.carrier == self.loops.carrier)
-            for step in (1e-2, 1e-3, 1e-4):
+            for step in BEYOND_EDGE:
                 beyond = edge.point - step * sphere.radius * flank.direction
                 outside.append(((beyond - sphere.centre) / norm(beyond - sphere.centre))[None, :])
         candidates = np.concatenate(outside)
@@ -117,7 +120,7 @@ class Walker:
                 x = (point - carrier.centre) / carrier.radius
                 y = self.pole - (self.pole @ x) * x
                 length = float(norm(y))
-                side = y / length if length > 1e-12 else perpendicular(x)
+                side = y / length if length > PARALLEL else perpendicular(x)
                 return Circle(carrier.centre, x, side, carrier.radius)
         return None
 
@@ -160,7 +163,10 @@ class Walker:
             case _:
                 side = Line(point, across, domain=(0.0, 4 * self.reach))
         low, high = side.domain
-        first = min((t for t, _ in self._cuts(side) if t - low > 1e-9 * (high - low)), default=high)
+        first = min(
+            (t for t, _ in self._cuts(side) if t - low > SAME_PARAMETER * (high - low)),
+            default=high,
+        )
         return side.point(np.array(low + fraction * (first - low)))
 
     def _vertex_gap(self, ray: Curve) -> float:

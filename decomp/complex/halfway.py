@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.complex.many_elements import Elements
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, dot, norm
 
 STEP = 0.05
@@ -44,7 +45,7 @@ def halfway(elements: Elements, numbers: Ints, ends: Array) -> Array:
         normal = elements.normal(numbers[rows], at)
         way = goal[rows] - at
         way = way - dot(way, normal)[:, None] * normal
-        way /= np.maximum(norm(way), 1e-300)[:, None]
+        way /= np.maximum(norm(way), TINY)[:, None]
         aim = at + step[:, None] * way
         moved = elements.place(numbers[rows], aim)
         near = norm(moved - aim) <= STRAY * step

@@ -19,6 +19,8 @@ BOX_SLACK = 1e-6
 
 EVERYTHING = np.array([[-np.inf] * 3, [np.inf] * 3])
 NOTHING = -EVERYTHING
+AXIAL = 1e-15
+"""A component of a unit vector that lacks less to 1 is along the axis."""
 
 
 def extents(program: Program, carriers: tuple[Carrier, ...], slack: float) -> tuple[Array, Array]:
@@ -97,7 +99,7 @@ def _half_space_boxes(carrier: Carrier) -> tuple[Array, Array]:
     if isinstance(carrier, Plane):
         k = int(np.argmax(np.abs(carrier.normal_vector)))
         sign = carrier.normal_vector[k]
-        if abs(abs(sign) - 1.0) < 1e-15:
+        if abs(abs(sign) - 1.0) < AXIAL:
             low, high = (outside, inside) if sign > 0 else (inside, outside)
             high[1, k] = low[0, k] = carrier.point[k]
         return inside, outside

@@ -14,6 +14,7 @@ from numpy.polynomial import chebyshev
 from decomp.curves.base import Curve
 from decomp.curves.critical import critical_points
 from decomp.curves.series import Chebyshev
+from decomp.tolerance import LAST_STEP
 from decomp.vectors import Array, Ints, norm
 
 WINDOW = 0.15
@@ -92,6 +93,6 @@ def _at(curve: Curve, t: float, origin: Array, tangent: Array, place: float) -> 
         slope = float(curve.derivative(np.array(t)) @ tangent)
         step = (place - float((curve.point(np.array(t)) - origin) @ tangent)) / slope
         t += step
-        if abs(step) <= 1e-15 * curve.period:
+        if abs(step) <= LAST_STEP * curve.period:
             break
     return t

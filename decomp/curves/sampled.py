@@ -16,6 +16,7 @@ from decomp.curves.algebraic import is_tangent
 from decomp.curves.base import Curve
 from decomp.curves.flat_touches import flat_touches
 from decomp.curves.touching import APART, Touching
+from decomp.tolerance import LAST_DIGIT
 from decomp.vectors import Array, Bools, dot, norm
 
 SPLIT = 4
@@ -115,7 +116,7 @@ def _bracketed(f: Function, low: Array, high: Array) -> Array:
     root = np.where(fa == 0, a, b)
     done = (fa == 0) | (fb == 0)
     before = np.zeros(low.shape)
-    small = 4e-16 * (np.abs(low) + np.abs(high))
+    small = LAST_DIGIT * (np.abs(low) + np.abs(high))
     for step in range(80):
         if done.all():
             break

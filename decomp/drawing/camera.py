@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.tolerance import TINY
 from decomp.vectors import Array, cross
 
 ASLANT = (0.45, -0.75, 0.48)
@@ -66,6 +67,6 @@ def fitted(points: Array, eye: Array, low: Array, high: Array) -> Projection:
     frame = axes(eye)
     flat = points @ frame[:2].T
     least, most = flat.min(axis=0), flat.max(axis=0)
-    scale = float(((high - low) / np.maximum(most - least, 1e-300)).min())
+    scale = float(((high - low) / np.maximum(most - least, TINY)).min())
     middle = (least + most) / 2 * (scale, -scale)
     return Projection(frame, scale, (low + high) / 2 - middle)

@@ -18,6 +18,7 @@ from decomp.drawing.raster import Triangles, joined, painted
 from decomp.drawing.scene import Body, Scene
 from decomp.errors import InputError
 from decomp.meshes.incidence import row_keys
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 WIDTH, HEIGHT, FINER = 1200, 900, 2
@@ -163,7 +164,7 @@ def creases(points: Array, triangles: Ints) -> Bools:
     """Which sides (k, 3) of triangles are borders, or bend by more than CREASE."""
     corners = points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(norm(normal), 1e-300)[:, None]
+    normal /= np.maximum(norm(normal), TINY)[:, None]
     keys = row_keys(triangles[:, SIDES].reshape(-1, 2))
     order = np.argsort(keys, kind="stable")
     _, first, count = np.unique(keys[order], return_index=True, return_counts=True)

@@ -29,6 +29,12 @@ EQUAL = 1e-7
 INSIDE = 1e-3
 """How far towards a triangle's centre is looked, in parts of the way, where a corner has none."""
 ROUNDS, SEARCHES = 14, 80
+AT_CORNER = 1e-6
+"""A crossing nearer to a corner than this part of the tolerance is at it."""
+AT_LEVEL = 1e-12
+"""An angle (radians) so near to the level is on it."""
+NO_MORE_OF_EDGE = 1e-13
+"""Part of an edge below which its crossing is not looked for more closely."""
 
 
 class LevelCut:
@@ -133,7 +139,7 @@ class LevelCut:
             return 0
         along, points = self._crossings(edges[side[rows]], owner[rows], ends[rows])
         gap = norm(points[:, None] - mesh.points[edges[side[rows]]]).min(axis=1)
-        near = gap <= 1e-6 * self._tolerance
+        near = gap <= AT_CORNER * self._tolerance
         for row, share in zip(rows[near], along[near], strict=True):
             # the crossing is at a corner, which counts as on the level from now on
             corner = edges[side[row], int(share > 0.5)]
@@ -178,7 +184,7 @@ class LevelCut:
             at_high = np.where(same, at_high / (2 if turn % 3 else 1), value)
             at_low = np.where(same, value, at_low / (2 if turn % 3 else 1))
             low, high = np.where(same, along, low), np.where(same, high, along)
-            left = left[(np.abs(value[left]) > 1e-12) & ((high - low)[left] > 1e-13)]
+            left = left[(np.abs(value[left]) > AT_LEVEL) & ((high - low)[left] > NO_MORE_OF_EDGE)]
             if not len(left):
                 break
         return along, points

@@ -22,6 +22,7 @@ from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.joining import Joined, fine_enough_to_part
 from decomp.skeletons.sheets.trim_maker import BoundaryVertices
 from decomp.skeletons.traced_region import TracedRegion
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, norm
 
 ON = 1e-9
@@ -100,7 +101,7 @@ class TetrahedraBoundary:
         t = np.asarray(piece.curve.parameter(mesh.points[nodes]))
         near = norm(piece.curve.point(t) - mesh.points[nodes]) <= self._slack
         nodes, t = nodes[near], t[near]
-        reach = self._slack / max(_speed(piece.curve, piece.start), 1e-300)
+        reach = self._slack / max(_speed(piece.curve, piece.start), TINY)
         if piece.curve.closed:
             t = piece.start + np.mod(t - piece.start + reach, piece.curve.period) - reach
         within = (t >= piece.start - reach) & (t <= piece.end + reach)

@@ -17,6 +17,7 @@ from decomp.sites.site import SiteKind, faces_at
 from decomp.skeletons.balls.fields import edge_foot
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.incidence import Incidence
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
 DELTA = 1e-7
@@ -25,7 +26,6 @@ LOOSE, TIGHT = 0.2, 1e-5
 """Radians by which the way to a point may be off the normals: before it is placed, and then."""
 BESIDE = (1e-2, 1e-3, 1e-4, 1e-5)
 """So far beside a smooth edge, in parts of the size, it is asked which face is there."""
-NONE = 1e-300
 
 
 class Normals:
@@ -248,7 +248,7 @@ class Normals:
 
 
 def _unit(vectors: Array) -> Array:
-    return np.asarray(vectors / np.maximum(norm(vectors), NONE)[..., None])
+    return np.asarray(vectors / np.maximum(norm(vectors), TINY)[..., None])
 
 
 def _plane(x: Array, at: Array, normal: Array) -> tuple[Array, Array]:

@@ -18,6 +18,7 @@ from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.balls.loci import on_locus
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.incidence import Incidence
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, norm
 
 STEPS = 30
@@ -205,7 +206,7 @@ class Placer:
             step[finite] = -np.einsum("kij,kj->ki", inverse, value[finite])
             length = norm(step)
             most = 0.25 * self._size
-            step *= np.minimum(1.0, most / np.maximum(length, 1e-300))[:, None]
+            step *= np.minimum(1.0, most / np.maximum(length, TINY))[:, None]
             x = x + step
         radius = self._field(sites[0], best, feet[:, 0])[0]
         return Placed(best, radius, worst <= GOOD * self._size)

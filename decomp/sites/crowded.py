@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.boundary.topology import RegionBoundary
 from decomp.curves.base import Curve
 from decomp.sites.occupancy import OccupancyTree
+from decomp.sites.occupancy_cells import circumradius
 from decomp.sites.on_boundary import ANYWHERE
 from decomp.vectors import Array, Ints, dot, norm
 
@@ -205,7 +206,7 @@ def leaf_balls(occupancy: OccupancyTree) -> Array:
         ends = link < 0
         # leaves that share a number have no carriers, so that nobody asks for their ball
         balls[-1 - link[ends], :3] = centres[ends]
-        balls[-1 - link[ends], 3] = np.sqrt(3.0) * half * (1 + 1e-9) + occupancy.rounding
+        balls[-1 - link[ends], 3] = circumradius(half, occupancy.rounding)
         half /= 2
         nodes = (link[~ends, None] + np.arange(8)).ravel()
         centres = (centres[~ends, None, :] + half * octants).reshape(-1, 3)

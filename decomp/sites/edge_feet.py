@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from math import atan2, cos, inf, pi, sin, sqrt
 
-from decomp.carriers.compiled_carriers import TINY, CarrierTable, Triple, normal, signed_distance
+from decomp.carriers.compiled_carriers import CarrierTable, Triple, normal, signed_distance
 from decomp.kernels.compiled import inlined, inner, scalar
+from decomp.tolerance import LAST_STEP, TINY
 from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
@@ -26,6 +27,9 @@ PARTS = 8
 LEVEL = 1e-13
 """A point is neither ahead of another nor behind if it is so by this part of their distance."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
+"""An arc of so much (radians) is a whole circle but for rounding."""
+NARROWED = 1e-14
+"""Part of a chord below which a level point is not looked for more closely."""
 
 
 @inner
@@ -127,7 +131,7 @@ def curve_point(
         x -= (da * (my * wz - mz * wy) + db * (wy * nz - wz * ny)) / det
         y -= (da * (mz * wx - mx * wz) + db * (wz * nx - wx * nz)) / det
         z -= (da * (mx * wy - my * wx) + db * (wx * ny - wy * nx)) / det
-        if abs(da) + abs(db) <= 1e-15 * chord:
+        if abs(da) + abs(db) <= LAST_STEP * chord:
             break
     if det < 0.0:
         tx, ty, tz = -tx, -ty, -tz
@@ -237,7 +241,7 @@ def level_point(
         else:
             factor = value / (value + behind)
             high, behind, ahead = u, value, ahead * (1.0 - factor)
-        if high - low < 1e-14:
+        if high - low < NARROWED:
             break
     return least < inf, at, best
 

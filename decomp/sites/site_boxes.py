@@ -11,6 +11,7 @@ from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.kernels.compiled import inlined
+from decomp.tolerance import ENLARGED
 from decomp.vectors import Array
 
 
@@ -53,7 +54,7 @@ def face_box(boundary: RegionBoundary, face: Face, around: list[Array]) -> Array
             own_low, own_high = _axial_box(carrier, np.array(edges))
         case _:
             own_low, own_high = low, high
-    slack = 1e-9 * boundary.diagonal
+    slack = ENLARGED * boundary.diagonal
     return np.concatenate([np.maximum(low, own_low) - slack, np.minimum(high, own_high) + slack])
 
 

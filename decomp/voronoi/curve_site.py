@@ -20,6 +20,8 @@ SAMPLES = 256
 NEWTON_STEPS = 12
 STEP = 1e-5
 """Of differences, in units of the domain."""
+SLANT = 1e-6
+"""Cosine of the angle with the curve above which a point's foot is an end of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +77,7 @@ class CurveSite(VoronoiSite):
         tangent, second = first / speed, self._second(t)
         bend = (second - dot(second, tangent)[..., None] * tangent) / speed**2
         away = p - q
-        slant = np.abs(dot(away, tangent)) > 1e-6 * norm(away)
+        slant = np.abs(dot(away, tangent)) > SLANT * norm(away)
         return np.where(slant[..., None, None], about_point(away), about_curve(away, tangent, bend))
 
     def _second(self, t: Array) -> Array:

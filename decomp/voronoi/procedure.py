@@ -27,6 +27,12 @@ NEWTON_STEPS = 15
 RESTARTS = 8
 CLOSE = 1e-9
 """Lengths below this part of the size are equal."""
+LEFT_OUT = 1e-13
+"""Singular values below this part of the largest are left out of a Newton step."""
+SETTLED = 1e-14
+"""Steps below which Newton's method has come to rest, relative to what it has come to."""
+ALIKE = 1e-9
+"""Length of the difference of two gradients below which they are one."""
 
 
 class Status(Enum):
@@ -118,9 +124,9 @@ def solve(f: Polynomial, g: Polynomial, p: Array, u: Array, v: Array) -> tuple[A
         values, jacobian = _system(sides, w)
         scale = np.linalg.norm(jacobian, axis=1)
         scale = np.where(scale > 0, scale, 1.0)
-        step = np.linalg.lstsq(jacobian / scale[:, None], values / scale, rcond=1e-13)[0]
+        step = np.linalg.lstsq(jacobian / scale[:, None], values / scale, rcond=LEFT_OUT)[0]
         w = w - step
-        if np.abs(step).max() <= 1e-14 * (1 + np.abs(w).max()):
+        if np.abs(step).max() <= SETTLED * (1 + np.abs(w).max()):
             break
     values, jacobian = _system(sides, w)
     scale = np.linalg.norm(jacobian, axis=1)
@@ -229,7 +235,7 @@ def _described(
         sides.append(side)
     slope = ways[0] - ways[1]
     steep = float(np.linalg.norm(slope))
-    if steep <= 1e-9:
+    if steep <= ALIKE:
         raise GeometryError("the two distances change alike: there is no tangent plane")
     normal = slope / steep
     x, y = frame(normal)

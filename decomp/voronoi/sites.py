@@ -39,6 +39,8 @@ __all__ = [
     "VoronoiSite",
     "of_carrier",
 ]
+NO_ANGLE = 1e-14
+"""Squares of sine and cosine add to 1 but for less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +158,7 @@ class ConeSite(CarrierSite):
     def __post_init__(self) -> None:
         super().__post_init__()
         off = abs(float(self.sine**2 + self.cosine**2) - 1)
-        if self.sine <= 0 or self.cosine <= 0 or off > 1e-14:
+        if self.sine <= 0 or self.cosine <= 0 or off > NO_ANGLE:
             raise InputError(
                 "sine and cosine of a cone must be those of an angle between 0 and 90 degrees, "
                 f"got {float(self.sine):g} and {float(self.cosine):g}"

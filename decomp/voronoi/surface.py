@@ -14,7 +14,7 @@ from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.errors import GeometryError, InputError
 from decomp.parity import Parity
-from decomp.tolerance import TOLERANCE
+from decomp.tolerance import LAST_STEP, TOLERANCE
 from decomp.vectors import Array, Bools, dot, norm
 from decomp.voronoi.bending import Curvatures, level_curvatures
 from decomp.voronoi.conic_site import ConicSite, of_conic
@@ -39,6 +39,8 @@ LINE = (
     (Fraction(17, 19), Fraction(-23, 29), Fraction(31, 37)),
 )
 """A point and a direction without relation to any model."""
+NO_SLOPE = 1e-24
+"""Square of a gradient below which there is no way to go."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,11 +147,12 @@ class VoronoiSurface:
         q = np.array(p, dtype=np.float64)
         value = self.difference(q)
         for _ in range(NEWTON_STEPS):
-            if float(np.max(np.abs(value), initial=0.0)) <= 1e-15 * self.size:
+            if float(np.max(np.abs(value), initial=0.0)) <= LAST_STEP * self.size:
                 break
             slope = self.difference_gradient(q)
             square = dot(slope, slope)
-            step = np.where(square > 1e-24, value / np.where(square > 1e-24, square, 1.0), 0.0)
+            steep = square > NO_SLOPE
+            step = np.where(steep, value / np.where(steep, square, 1.0), 0.0)
             step = np.clip(step, -self.size, self.size)[..., None] * slope
             # across a reflexive locus the gradient jumps: then a shorter step is taken
             for _ in range(HALVINGS):

@@ -21,6 +21,10 @@ TURN = np.radians(75)
 ROUNDS = 40
 CLEARANCE = 0.35
 """Points inside keep this part of their spacing away from samples of pieces."""
+OPPOSITE_POLE = 1e-6
+"""Middles nearer to the centre than this part of the radius are opposite the pole."""
+AT_TIP = 1e-9
+"""An edge's end nearer to a cone's tip than this part of the edge is the tip."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +184,7 @@ def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -
     away = (both / 2 - centre)[:, 1:]
     # the point opposite the pole: any way round
     x, _ = frame(layout.carrier.normal(layout.pole))
-    away = np.where(norm(away)[..., None] > 1e-6 * radius, away, x)
+    away = np.where(norm(away)[..., None] > OPPOSITE_POLE * radius, away, x)
     result[fan, 1:] = layout.carrier.project(centre + radius * away / norm(away)[..., None])
     return np.asarray(result)
 
@@ -205,7 +209,7 @@ def _bent(
     a, b = points[low[first]], points[high[first]]
     angle = np.arccos(np.clip(dot(layout.carrier.normal(a), layout.carrier.normal(b)), -1, 1))
     if isinstance(layout.carrier, Cone):
-        reach = 1e-9 * norm(a - b)
+        reach = AT_TIP * norm(a - b)
         tip = layout.carrier.apex
         angle = np.where((norm(a - tip) <= reach) | (norm(b - tip) <= reach), 0.0, angle)
     bad = first[angle > turn]

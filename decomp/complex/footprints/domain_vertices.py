@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.carriers import Cone
-from decomp.complex.footprints.domain_base import Domain
+from decomp.complex.footprints.domain_base import AT_APEX, Domain
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, cross, dot, frame, norm
 
@@ -18,6 +18,10 @@ SLOPE = 1e-6
 """A direction that makes an angle this little below 90 degrees with a surface is normal to it."""
 WIDE = 0.2
 """Cosine of the angle from the middle direction up to which straight pictures are drawn."""
+NO_MIDDLE = 1e-6
+"""Length of the sum of normals below which it has no direction."""
+BESIDE_VERTEX = 1e-4
+"""An apex has no normal: it is taken this part of an edge beside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +82,7 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
             )
     rays = np.array(normals)
     total = rays.sum(axis=0)
-    if float(norm(total)) < 1e-6:
+    if float(norm(total)) < NO_MIDDLE:
         raise GeometryError("the normals at the vertex {at} have no middle", at=vertex.point)
     middle = total / norm(total)
     return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE).all()))
@@ -169,9 +173,9 @@ def _near(boundary: RegionBoundary, edge: int, vertex: int) -> Array:
     e = boundary.edges[edge]
     point = boundary.vertices[vertex].point
     apexes = [c.apex for c in boundary.carriers if isinstance(c, Cone)]
-    if not any(norm(a - point) <= 1e-8 * boundary.diagonal for a in apexes):
+    if not any(norm(a - point) <= AT_APEX * boundary.diagonal for a in apexes):
         return point
     assert e.vertices is not None
-    share = 1e-4 if e.vertices[0] == vertex else 1 - 1e-4
+    share = BESIDE_VERTEX if e.vertices[0] == vertex else 1 - BESIDE_VERTEX
     t = np.array(e.start + share * (e.end - e.start))
     return e.curve.point(e.curve.wrapped(t))

@@ -13,7 +13,7 @@ import numpy as np
 from decomp.boundary.topology import Face, RegionBoundary
 from decomp.carriers import Carrier, Cone
 from decomp.complex.footprints.charts import Chart, chart_of
-from decomp.complex.footprints.domain_base import Domain
+from decomp.complex.footprints.domain_base import AT_APEX, Domain
 from decomp.complex.footprints.domain_edges import edge_domain
 from decomp.complex.footprints.domain_vertices import vertex_domain
 from decomp.complex.plane.planar import Period
@@ -82,6 +82,6 @@ def face_domain(boundary: RegionBoundary, face: Face, pole: Array | None = None)
     if isinstance(carrier, Cone):
         index = next(k for k, f in enumerate(boundary.faces) if f is face)
         corners = [v.point for v in boundary.vertices if index in v.faces]
-        apex = any(norm(p - carrier.apex) <= 1e-8 * boundary.diagonal for p in corners)
+        apex = any(norm(p - carrier.apex) <= AT_APEX * boundary.diagonal for p in corners)
         slant = float(norm(face.point - carrier.apex))
     return FaceDomain(carrier, face.outward, chart_of(carrier, apex, slant, pole))

@@ -22,6 +22,8 @@ TRIES = 3
 """So many neighbours, the most promising ones, are tried for each vertex."""
 
 ROUNDS = 2000
+UNDER_EDGE = 1e-9
+"""A corner lies beyond the edge opposite only if it does by more than this part of the area."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +152,7 @@ def _moves(mesh: Mesh, able: Bools, order: Ints, starts: Ints) -> Moves:
     b, c, d = p[u[move]] - a, p[w] - a, p[x] - a
     area = dot(cross(c - b, d - b), n)
     least = np.minimum(np.minimum(dot(cross(b, c), n), dot(cross(c, d), n)), dot(cross(d, b), n))
-    under = least >= -1e-9 * np.abs(area)
+    under = least >= -UNDER_EDGE * np.abs(area)
     volume = np.abs(dot(b, cross(c, d)))
     size = np.sqrt(dot(n, n))
     height = np.full(len(v), np.inf)

@@ -30,6 +30,8 @@ Corners themselves are left out: the surface may have no normal there, as a cone
 """
 
 _FIT = np.linalg.pinv(np.roll(INSIDE, -1, axis=1) * np.roll(INSIDE, 1, axis=1))
+NO_AREA = 1e-9
+"""A triangle has no normal if its double area is below this part of its longest side squared."""
 
 
 def _along() -> Array:
@@ -57,7 +59,7 @@ def triangle_normals(corners: Array) -> Array:
     double = cross(sides[:, 0], sides[:, 1])
     size = norm(double)
     longest = dot(sides, sides).max(axis=1)
-    real = size > 1e-9 * longest
+    real = size > NO_AREA * longest
     return np.where(real[:, None], double / np.where(real, size, 1.0)[:, None], 0.0)
 
 

@@ -15,6 +15,10 @@ TURN = 0.1
 
 ROUNDS = 12
 MOST = 20_000
+OTHER_NAPPE = 1e-6
+"""Samples farther off a carrier than this part of the size are on a cone's other nappe."""
+REPEATED = 1e-12
+"""A sample is the one before again if they are closer than this part of the whole curve."""
 
 
 def chains(net: Network, a: Carrier, b: Carrier, size: float) -> list[TracedCurve]:
@@ -22,7 +26,7 @@ def chains(net: Network, a: Carrier, b: Carrier, size: float) -> list[TracedCurv
     left = set(range(len(net.arcs)))
     for number in list(left):
         middle = net.arcs[number][len(net.arcs[number]) // 2]
-        if abs(float(b.signed_distance(middle))) > 1e-6 * size:
+        if abs(float(b.signed_distance(middle))) > OTHER_NAPPE * size:
             left.discard(number)  # on the other nappe of a cone
     curves = []
     ends = [(n, side) for n in sorted(left) for side in (0, 1)]
@@ -72,7 +76,7 @@ def traced(
 ) -> TracedCurve | None:
     """Bring rough samples onto both carriers, space them by turning, and make the curve."""
     step = norm(np.diff(p, axis=0))
-    p = p[np.concatenate([[True], step > 1e-12 * step.sum()])]
+    p = p[np.concatenate([[True], step > REPEATED * step.sum()])]
     if len(p) < 3:
         return None
     fixed = np.zeros(len(p), dtype=bool)

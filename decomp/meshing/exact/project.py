@@ -31,6 +31,8 @@ WORST = 15.0
 """Nodes of tetrahedra below this angle are moved to better places."""
 STEPS = (0.25, 0.1, 0.04)
 """How far they are moved, in parts of the shortest edge at them."""
+BETTER = 1e-9
+"""Least angles (degrees) have grown only if they have by so much."""
 
 
 class Projector:
@@ -153,7 +155,7 @@ class Projector:
             self._points[node] = goal
             quality = least_dihedral(self._points, self._tets[around])
             wanted = np.minimum(
-                np.maximum(factor * self._floor[around], LAST), self._quality[around] + 1e-9
+                np.maximum(factor * self._floor[around], LAST), self._quality[around] + BETTER
             )
             if (quality >= wanted).all() and (quality > 0).all():
                 self._quality[around] = quality

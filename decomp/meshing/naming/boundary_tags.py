@@ -9,6 +9,7 @@ import numpy as np
 from decomp.meshing.surface.cells import OUTSIDE, locate
 from decomp.meshing.surface.followed import Followed
 from decomp.skeletons.certificate.distance import TriangleTree, triangle_distance, triangle_tree
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot, norm
 
 ASIDE = 0.5
@@ -75,7 +76,7 @@ class BoundaryTags:
         """The face, of some of a region, that each triangle lies on: nearest, and turned alike."""
         corners = points[triangles]
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normal /= np.maximum(norm(normal), 1e-300)[:, None]
+        normal /= np.maximum(norm(normal), TINY)[:, None]
         middle = corners.mean(axis=1, keepdims=True)
         asked = np.concatenate([middle, middle + 0.7 * (corners - middle)], axis=1)
         asked = asked - ASIDE * self._epsilon * normal[:, None]

@@ -13,6 +13,7 @@ import numpy as np
 from decomp.geometry import Geometry
 from decomp.meshes.faces import NONE, Faces, faces_of
 from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 TOWARDS = 0.4
@@ -59,7 +60,7 @@ def walls(
     """
     corners = points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    way = normal * (ASIDE * epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+    way = normal * (ASIDE * epsilon / np.maximum(norm(normal), TINY))[:, None]
     middle = corners.mean(axis=1, keepdims=True)
     asked = np.concatenate([middle, middle + NEAR_CORNER * (corners - middle)], axis=1)
     both = np.concatenate([asked - way[:, None], asked + way[:, None]])
@@ -99,7 +100,7 @@ def _follow(
     doubtful = np.flatnonzero(doubt)
     own_who = np.repeat(doubtful, votes.shape[1])
     own_label = votes[doubtful].reshape(-1)
-    own_weight = np.repeat(np.maximum(around[doubtful], 1e-300) * OWN / 5, votes.shape[1])
+    own_weight = np.repeat(np.maximum(around[doubtful], TINY) * OWN / 5, votes.shape[1])
     for turn in range(ROUNDS):
         asked = np.concatenate([who, own_who])
         said = np.concatenate([label[other], own_label])

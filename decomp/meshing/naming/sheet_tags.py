@@ -7,6 +7,7 @@ import numpy as np
 from decomp.meshing.surface.cells import locate
 from decomp.meshing.surface.followed import Followed
 from decomp.skeletons.certificate.distance import triangle_distance, triangle_tree
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
 ASIDE = 0.5
@@ -112,7 +113,7 @@ class SheetTags:
     def _jumps(self, corners: Array) -> Bools:
         """Whether the feet on both sides of triangles, given by their corners, are far apart."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), 1e-300))[:, None]
+        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), TINY))[:, None]
         middle = corners.mean(axis=1)
         asked = np.concatenate([middle - way, middle + way])
         feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)

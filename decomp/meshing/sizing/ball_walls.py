@@ -17,6 +17,7 @@ from decomp.skeletons.balls.balls import balls_at
 from decomp.skeletons.balls.probing import TOWARDS
 from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.balls.shrinking import OSCULATES, TOUCHES
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 INSIDE = 1e-6
@@ -72,7 +73,7 @@ class _Balls:
         foot[bent] = beyond.foot
         off = norm(beyond.foot - centre[bent])
         good[bent] = (beyond.site >= 0) & (off < (1 + ACROSS) * balls.radius[bent])
-        square = np.maximum(balls.radius, 1e-300) ** 2
+        square = np.maximum(balls.radius, TINY) ** 2
         good &= dot(q - centre, foot - centre) < FACING * square
         rows = np.flatnonzero(good)
         q, centre, foot, radius = q[rows], centre[rows], foot[rows], balls.radius[rows]

@@ -15,6 +15,7 @@ from decomp.meshing.sizing.wall import FACING, Wall
 from decomp.meshing.surface.layout import samples
 from decomp.meshing.surface.surface import MeshSurface
 from decomp.sites.site import SiteKind
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, dot, norm
 
 ALONG = 9
@@ -125,7 +126,7 @@ def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
                 asked = some + width / 2 * out
                 found = index.nearest(asked)
                 outside = index.region_of(some + 0.01 * width * out) < 0
-                way = (found.foot - asked) / np.maximum(found.distance, 1e-300)[:, None]
+                way = (found.foot - asked) / np.maximum(found.distance, TINY)[:, None]
                 near = (found.distance < 0.45 * width) & (dot(way, out) > -FACING)
                 for row in np.flatnonzero(outside & ((found.region >= 0) | near)):
                     site = geometry.sites[found.site[row]]

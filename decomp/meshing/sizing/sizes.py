@@ -19,6 +19,7 @@ from decomp.meshing.sizing.size_places import Place, SizeFunction
 from decomp.meshing.sizing.wishes import Lengths, Wish, Wishes, joined
 from decomp.meshing.surface.layout import samples
 from decomp.meshing.surface.surface import MeshSurface
+from decomp.tolerance import TINY
 from decomp.vectors import Array, cross, norm, positive
 from decomp.vectors import number as finite
 
@@ -38,6 +39,8 @@ LOOKS = 20_000
 EVEN, ROUGH = 0.85, 1.2
 """Edges about as long as the part is thick, up to the second of these parts of it, are made as long
 as the first: the skeleton halves walls, and tetrahedra over half of one would all come out flat."""
+FLAT_FACE = 1e-12
+"""Curvature, times the largest edge, up to which a face is flat there."""
 
 
 @dataclass(frozen=True)
@@ -211,7 +214,7 @@ def _curved(
         bend = np.maximum(np.abs(low), np.abs(high))
         own = np.full(len(some), largest)
         if wanted.per_circle is not None:
-            own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, 1e-300))
+            own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, TINY))
         own = np.maximum(own, LEAST * largest)
         share = (area / np.bincount(which, minlength=len(area)))[which]
         lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
@@ -233,7 +236,7 @@ def _curved(
             shrunk = min(shrunk, sqrt(VOLUME / part))
     wishes: list[Wish] = []
     for some, own, bend, which, reasons in found:
-        bent = (bend > 1e-12 / largest) & (shrunk < 1.0)
+        bent = (bend > FLAT_FACE / largest) & (shrunk < 1.0)
         lengths = np.where(bent, shrunk * own, own)
         wishes.append((some, lengths, (np.where(bent, 1, which), reasons)))
     return wishes
