@@ -46,6 +46,10 @@ CHORDS: Final = 5e-4
 """A skeleton's triangles are no farther from the exact sheets, if nothing else is asked for."""
 COARSEST_CHORDS: Final = 0.1
 """The largest such distance that can be asked for."""
+OUT_OF_CELLS: Final = 2e-3
+"""Meshes may leave their cells by this part of a region's diagonal by default."""
+OFF_VOLUMES: Final = 5e-3
+"""Volumes of meshes may be off by this part by default, beside what straight edges leave out."""
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ from decomp.curves.straight import line_crossings
 from decomp.tolerance import PARALLEL
 from decomp.vectors import Array, Ints, norm
 
-PROBES = 23
+CURVE_PROBES = 23
 """Points of a curve that tell whether a carrier holds it."""
 TOUCH_KNOWN = 1e-6
 """Where carriers touch, and nodes, are double points: they are located to the square root of the
@@ -195,7 +195,7 @@ class _Arranger:
         centre, radius = curve.bounding_ball()
         ball = np.array([centre - radius, centre + radius])
         others = self._candidates(curve, ball, holding)
-        points = curve.point(np.linspace(*curve.domain, PROBES))
+        points = curve.point(np.linspace(*curve.domain, CURVE_PROBES))
         gaps = np.abs(form.table.distances(points, others)).max(axis=1)
         held = gaps <= form.tolerance
         near = overlap(form.carrier_boxes[others], np.array(_common(ball, box)))

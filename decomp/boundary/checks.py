@@ -16,7 +16,7 @@ from decomp.vectors import Array, Bools, cross, norm, perpendicular
 
 INTO_REGIONS = 1e-6
 """Where regions overlap is told this part of the scale off the face."""
-OPPOSITE = 1e-6
+OPPOSITE_WAYS = 1e-6
 """Length of the sum of two unit vectors below which they are opposite: it has no direction."""
 
 
@@ -109,7 +109,7 @@ def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
     gap = (second.angle - first.angle) % (2 * np.pi)
     if gap > np.pi:
         between = -between
-    if float(norm(between)) < OPPOSITE:
+    if float(norm(between)) < OPPOSITE_WAYS:
         between = cross(cross(first.direction, second.direction), first.direction)
     for step in form.scale * 10.0 ** -np.arange(1, 12):
         point = star.point + step * between / (norm(between) or 1.0)

@@ -27,7 +27,7 @@ from decomp.curves.straight import line_crossings
 from decomp.tolerance import PARALLEL, SAME_PARAMETER
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
 
-CLEAR = 1e-4
+CLEAR_OF_VERTICES = 1e-4
 """How far, in units of the reach, rays keep away from vertices where they can."""
 BEYOND_EDGE = (1e-2, 1e-3, 1e-4)
 """A point that no face covers is looked for beyond edges, these parts of the radius off."""
@@ -139,7 +139,7 @@ class Walker:
             gap = self._vertex_gap(ray)
             if gap > clearest:
                 best, clearest = moved, gap
-            if gap > CLEAR * self.reach:
+            if gap > CLEAR_OF_VERTICES * self.reach:
                 break
         return best
 

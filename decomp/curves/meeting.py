@@ -11,7 +11,7 @@ from decomp.carriers.table import CarrierTable
 from decomp.tolerance import EXACTLY_PARALLEL
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
-BLOCK = 2_000_000
+PAIRS_AT_ONCE = 2_000_000
 DRIFT = 1e-14
 """Axes that move apart by less are parallel, however small the tolerance is; a length."""
 
@@ -32,7 +32,7 @@ def meeting_pairs(
     reach = radius + tolerance
     near = np.nonzero(np.abs(table.distances(centre[None])[:, 0]) <= reach)[0]
     pairs: list[tuple[int, int]] = []
-    rows = max(1, BLOCK // max(len(near), 1))
+    rows = max(1, PAIRS_AT_ONCE // max(len(near), 1))
     for start in range(0, len(near), rows):
         block = near[start : start + rows]
         i, j = np.nonzero(block[:, None] < near[None, :])

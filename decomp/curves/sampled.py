@@ -15,7 +15,7 @@ from decomp.carriers import Carrier
 from decomp.curves.algebraic import is_tangent
 from decomp.curves.base import Curve
 from decomp.curves.flat_touches import flat_touches
-from decomp.curves.touching import APART, Touching
+from decomp.curves.touching import CROSSINGS_APART, Touching
 from decomp.tolerance import LAST_DIGIT
 from decomp.vectors import Array, Bools, dot, norm
 
@@ -24,7 +24,7 @@ MOST_LEVELS = 8
 FASTEST = 1.2
 """Bound of the speed |x'(t)| of a traced curve, whose samples turn by a few degrees."""
 
-AT_REST = 1e-10
+ROOT_AT_REST = 1e-10
 """Steps of Newton's method below this part of a curve's length have come to rest."""
 
 Function = Callable[[Array], Array]
@@ -58,7 +58,7 @@ def traced_roots(
     if len(deep):
         start = _bracketed(distance, low[dip][deep], bottom[deep])
         stop = _bracketed(distance, bottom[deep], high[dip][deep])
-        apart = norm(curve.point(stop) - curve.point(start)) > APART * tolerance
+        apart = norm(curve.point(stop) - curve.point(start)) > CROSSINGS_APART * tolerance
         touch[deep] = ~apart | touches(curve.point(bottom[deep]))
     through = ~touch & (depth * side[dip] < 0)
     start = np.concatenate([low[cross], low[dip][through], bottom[through]])
@@ -150,7 +150,7 @@ def _settled(
         d = slope(crossing)
         step = carrier.signed_distance(curve.point(crossing)) / np.where(d == 0, 1.0, d)
         crossing = np.where(tangent, t, crossing - step)
-    tangent = tangent | (np.abs(step) > AT_REST * curve.period)
+    tangent = tangent | (np.abs(step) > ROOT_AT_REST * curve.period)
     return curve.wrapped(np.where(tangent, t, crossing)), tangent
 
 

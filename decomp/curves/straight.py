@@ -16,7 +16,7 @@ from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.table import CarrierTable
 from decomp.curves.crossings import crossings
 from decomp.curves.line import Line
-from decomp.curves.touching import APART, anywhere
+from decomp.curves.touching import CROSSINGS_APART, anywhere
 from decomp.vectors import Array, Bools, Ints
 
 NO_SQUARE = 1e-14
@@ -88,7 +88,7 @@ def _quadratic_roots(
         below, above = middle - spread, middle + spread
     straight = np.abs(quadratic) <= NO_SQUARE
     touch = ~straight & _touches(line, table, among, middle, tolerance)
-    for row in np.flatnonzero(touch & (2 * spread > APART * tolerance)):
+    for row in np.flatnonzero(touch & (2 * spread > CROSSINGS_APART * tolerance)):
         touch[row] = touches(int(among[row]), line.point(middle[row : row + 1]))[0]
     crossing = ~straight & ~touch & (square > 0)
     rows = np.arange(len(among))

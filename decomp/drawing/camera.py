@@ -20,7 +20,7 @@ VIEWS = {
     "-z": (0.0, 0.0, -1.0),
 }
 """Ways from the model to the eye, by name."""
-STEEP = 1e-6
+FROM_ABOVE = 1e-6
 """The eye is right above or below if its share across z is less: then x points to the right."""
 
 
@@ -29,7 +29,7 @@ def axes(eye: Array) -> Array:
     towards = eye / np.linalg.norm(eye)
     right = cross(np.array([0.0, 0.0, 1.0]), towards)
     length = float(np.linalg.norm(right))
-    right = right / length if length > STEEP else np.array([1.0, 0.0, 0.0])
+    right = right / length if length > FROM_ABOVE else np.array([1.0, 0.0, 0.0])
     up = cross(towards, right)
     return np.stack([right, up / np.linalg.norm(up), towards])
 

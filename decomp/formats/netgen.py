@@ -27,7 +27,17 @@ from decomp.csg.solid import (
     checked_name,
 )
 from decomp.errors import FileError, InputError
-from decomp.formats.grammar import MARKS, NUMBER, Language, numbers, parse, token_pattern, tokens
+from decomp.formats.grammar import (
+    ENDS,
+    MARKS,
+    MARKS_WITHIN,
+    NUMBER,
+    Language,
+    numbers,
+    parse,
+    token_pattern,
+    tokens,
+)
 from decomp.formats.netgen_flags import Flag, options, plain
 from decomp.formats.netgen_solids import COPIES, PRIMITIVES, STEPS, WRITTEN, Vector
 from decomp.formats.source import Source
@@ -95,15 +105,9 @@ LANGUAGE = Language(
         "_NOT": "'not'",
         "_AND": "'and'",
         "_OR": "'or'",
-        "_EQUALS": "'='",
-        "_COMMA": "','",
-        "_LPAR": "'('",
-        "_RPAR": "')'",
-        "_LSQB": "'['",
-        "_RSQB": "']'",
+        **MARKS_WITHIN,
         "FLAG": "a flag such as -maxh=0.5",
-        "SEMI": "';'",
-        "$END": "the end of the file",
+        **ENDS,
     },
 )
 

@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, Any
 from decomp.csg.model import Model, Region
 from decomp.csg.solid import Solid
 from decomp.errors import FileError
-from decomp.formats.grammar import MARKS, NUMBER, Language, numbers, parse, token_pattern
+from decomp.formats.grammar import (
+    ENDS,
+    MARKS,
+    MARKS_WITHIN,
+    NUMBER,
+    Language,
+    numbers,
+    parse,
+    token_pattern,
+)
 from decomp.formats.openscad_shapes import EMPTY, PARAMETERS, Call, Circle, Fault, Shape, Shapes
 from decomp.formats.source import Source
 
@@ -41,16 +50,10 @@ LANGUAGE = Language(
     words={
         "NAME": "a name such as cube",
         "NUMBERS": "a number",
-        "_EQUALS": "'='",
-        "_COMMA": "','",
-        "_LPAR": "'('",
-        "_RPAR": "')'",
-        "_LSQB": "'['",
-        "_RSQB": "']'",
+        **MARKS_WITHIN,
         "_LBRACE": "'{'",
         "_RBRACE": "'}'",
-        "SEMI": "';'",
-        "$END": "the end of the file",
+        **ENDS,
     },
 )
 

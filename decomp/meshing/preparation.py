@@ -26,12 +26,12 @@ from decomp.meshing.surface.layout import Layout, layout
 from decomp.meshing.surface.surface import MeshSurface, Surfaces
 from decomp.vectors import Array, Ints
 
-CHORD, COARSEST = 0.4, 0.65
+CHORD, COARSEST_CHORD = 0.4, 0.65
 """How far triangles are made to be off their surfaces, and may be, in parts of epsilon."""
-CUSP = 2.0
+CUSP_DEGREES = 2.0
 """Faces that meet at less than this angle (degrees) make a cusp, whose tip no epsilon fits into.
 Only sheets, which end in it, need as small a one as there is."""
-SHORTEST = 7.0
+SHORTEST_EDGES = 7.0
 """The shortest edges are at least so many epsilons long."""
 
 Cells = Literal["skeleton", "face", "none"]
@@ -95,13 +95,13 @@ def prepared(
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
     make = _maker(geometry, cells, sizes, surfaces, tell)
     longest = float(sizes.min())
-    epsilon = usual_epsilon(geometry, longest, CUSP if cells == "none" else 0.0)
+    epsilon = usual_epsilon(geometry, longest, CUSP_DEGREES if cells == "none" else 0.0)
     surface = make(CHORD * epsilon)
     epsilon = fitting_epsilon(geometry, surface, epsilon, longest)
     surface = _fine_enough(surface, epsilon, make)
     tell("sizing", 1.0)
     wish = wishes(geometry, surface, wanted)
-    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST)
+    epsilon = min(epsilon, float(wish.lengths.min()) / SHORTEST_EDGES)
     surface = _fine_enough(surface, epsilon, make)
     expected = expected_tets(geometry, wish, sizes)
     check_memory(expected)
@@ -140,6 +140,6 @@ def _fine_enough(
     surface: MeshSurface, epsilon: float, make: Callable[[float], MeshSurface]
 ) -> MeshSurface:
     """The surface, or a finer one if it is too coarse for an epsilon."""
-    if surface.tolerance <= COARSEST * epsilon:
+    if surface.tolerance <= COARSEST_CHORD * epsilon:
         return surface
     return make(CHORD * epsilon)

@@ -16,16 +16,16 @@ from decomp.meshing.exact.targets import Finder
 from decomp.meshing.naming.classify import classified
 from decomp.meshing.naming.tagging import Tagger
 from decomp.meshing.preparation import Prepared, Progress
-from decomp.meshing.repairs.shortening import LONGEST, shortened, tightened
+from decomp.meshing.repairs.shortening import LONGEST_EDGE, shortened, tightened
 from decomp.meshing.repairs.splitting import freed
 from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Ints
 
-FAR, AGAIN = 3.0, 0.9
+OFF_FACES, SECOND_EPSILON = 3.0, 0.9
 """Nodes farther off their faces than so many epsilons tell that TetWild has failed to insert a
 triangle. It does so by chance, and is tried once more, with this part of epsilon."""
 
-CUTS = 3
+CUTTING_ROUNDS = 3
 """How often edges that are too long are cut: nodes put in place can draw them out again."""
 
 
@@ -59,7 +59,7 @@ def filled(given: Prepared, limit: TimeLimit, tell: Progress) -> Filled:
     best = _run(given, given.settings, limit, tell)
     if len(best.far):
         tell("TetWild again", 0.0)
-        finer = replace(given.settings, epsilon=AGAIN * given.settings.epsilon)
+        finer = replace(given.settings, epsilon=SECOND_EPSILON * given.settings.epsilon)
         with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
             again = _run(given, finer, limit, tell)
             best = min(best, again, key=lambda found: len(found.far))
@@ -84,16 +84,16 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     tagger, finder = Tagger(followed), Finder(followed)
     tagged = tagger.tagged(points, part, faces_of(tets))
     aimed = given.asked
-    for _ in range(CUTS):
+    for _ in range(CUTTING_ROUNDS):
         points, tets, part = shortened(points, tets, part, tagged, aimed)
         fit = conformed(points, tets, part, tagger, finder, plan, given.elements, given.asked)
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
         longest = given.asked.edges(points, tets, part, tagged).excess(points).max()
         tighter = tightened(points, tets, part, tagged, given.asked, aimed)
-        if longest <= LONGEST and tighter is None:
+        if longest <= LONGEST_EDGE and tighter is None:
             break
         aimed = tighter or aimed
-    far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * epsilon)
+    far = strayed(fit.points, fit.tagged, plan, given.elements, OFF_FACES * epsilon)
     return Filled(fit, finder, far)
 
 

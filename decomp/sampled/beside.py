@@ -25,7 +25,7 @@ from decomp.skeletons.traced_region import TracedRegion
 from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, norm
 
-ON = 1e-9
+ON_PIECE = 1e-9
 """Nodes nearer to a vertex, or a piece of an edge, than this part of the diagonal are on it."""
 
 
@@ -40,7 +40,7 @@ class TetrahedraBoundary:
 
     def __init__(self, geometry: Geometry, given: Interior, mesh: Bisected) -> None:
         self._geometry, self._given, self._mesh = geometry, given, mesh
-        self._slack = ON * geometry.diagonal
+        self._slack = ON_PIECE * geometry.diagonal
 
     def put_nodes(self, places: list[Array]) -> None:
         """Have nodes at places (3,) on edges; tetrahedra there are cut."""

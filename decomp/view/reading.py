@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from decomp.drawing.scene import Scene
 from decomp.errors import InputError
-from decomp.places import FAR
+from decomp.places import FAR_SIZES
 from decomp.vectors import norm
 
 if TYPE_CHECKING:
@@ -52,6 +52,6 @@ def brought_near(scene: Scene) -> Scene:
         return scene
     low, high = scene.points.min(axis=0), scene.points.max(axis=0)
     middle = (low + high) / 2
-    if not norm(middle) > FAR * norm(high - low):
+    if not norm(middle) > FAR_SIZES * norm(high - low):
         return scene
     return replace(scene, points=scene.points - middle, origin=scene.origin + middle)

@@ -17,7 +17,7 @@ from decomp.meshes.model import GroupKind, TetMesh
 from decomp.meshes.quality import inverted, volumes
 from decomp.meshes.report import report
 from decomp.meshing.backends.tetwild.child import Settings, Tetrahedra, tetrahedralized
-from decomp.meshing.repairs.shortening import LONGEST
+from decomp.meshing.repairs.shortening import LONGEST_EDGE
 from decomp.meshing.repairs.splitting import held
 from decomp.vectors import Array, Ints
 from tests.meshing.meshes import MODELS, geometry, meshed
@@ -84,7 +84,7 @@ def test_edges_are_as_long_as_asked(name: str) -> None:
     for part in (*found.regions, *found.surfaces):
         if part.edges is not None:
             assert part.edges.asked is not None and part.edges.wanted is not None
-            assert part.edges.longest <= LONGEST * part.edges.asked
+            assert part.edges.longest <= LONGEST_EDGE * part.edges.asked
             assert part.edges.mean <= 1.05 * part.edges.asked
             assert part.edges.mean >= 0.75 * part.edges.wanted
 

@@ -16,9 +16,9 @@ from decomp.complex.plane.planar import SparseError, triangulate
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints, dot, frame, norm
 
-TURN = np.radians(75)
+INNER_TURN = np.radians(75)
 """The most that normals differ along an edge inside a face, more than on samples of its border."""
-ROUNDS = 40
+INNER_ROUNDS = 40
 CLEARANCE = 0.35
 """Points inside keep this part of their spacing away from samples of pieces."""
 OPPOSITE_POLE = 1e-6
@@ -50,7 +50,7 @@ class CarrierMesh:
 
 
 def carrier_mesh(
-    layout: Layout, samples: Samples, interior: Array | None = None, turn: float = TURN
+    layout: Layout, samples: Samples, interior: Array | None = None, turn: float = INNER_TURN
 ) -> CarrierMesh:
     """Triangulate the faces on a carrier.
 
@@ -72,7 +72,7 @@ def carrier_mesh(
     extra = _first_points(layout, known) if interior is None else interior
     if layout.pole is not None and not (extra == layout.pole).all(axis=1).any():
         extra = np.concatenate([layout.pole[None], extra])
-    for attempt in range(ROUNDS):
+    for attempt in range(INNER_ROUNDS):
         points = np.concatenate([known, extra])
         try:
             triangles, corners = _triangulated(layout, points, segments)
@@ -227,4 +227,4 @@ def spread(points: Array, gaps: Iterable[float]) -> Array:
     return np.array(taken).reshape(-1, 3)
 
 
-__all__ = ["TURN", "CarrierMesh", "FoldedError", "carrier_mesh", "spread"]
+__all__ = ["INNER_TURN", "CarrierMesh", "FoldedError", "carrier_mesh", "spread"]

@@ -12,11 +12,11 @@ from decomp.complex.footprints.domain_base import AT_APEX, Domain
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, cross, dot, frame, norm
 
-SECTOR = 6
+SECTOR_DIRECTIONS = 6
 """Directions by which the corner of a face is represented."""
-SLOPE = 1e-6
+NORMAL_SLOPE = 1e-6
 """A direction that makes an angle this little below 90 degrees with a surface is normal to it."""
-WIDE = 0.2
+WIDE_COSINE = 0.2
 """Cosine of the angle from the middle direction up to which straight pictures are drawn."""
 NO_MIDDLE = 1e-6
 """Length of the sum of normals below which it has no direction."""
@@ -72,7 +72,7 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
         cone = boundary.carriers[face.carrier]
         assert isinstance(cone, Cone)
         # the balls that touch an apex lie in the cone of normals about the axis
-        return VertexDomain(vertex.point, -cone.axis, float(np.sin(cone.angle)) > WIDE)
+        return VertexDomain(vertex.point, -cone.axis, float(np.sin(cone.angle)) > WIDE_COSINE)
     normals = []
     for k in vertex.edges:
         for f in boundary.edges[k].faces:
@@ -85,7 +85,7 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
     if float(norm(total)) < NO_MIDDLE:
         raise GeometryError("the normals at the vertex {at} have no middle", at=vertex.point)
     middle = total / norm(total)
-    return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE).all()))
+    return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE_COSINE).all()))
 
 
 def reaches_into(boundary: RegionBoundary, index: int, directions: Array) -> Bools:
@@ -99,7 +99,7 @@ def reaches_into(boundary: RegionBoundary, index: int, directions: Array) -> Boo
         directions: unit vectors (k, 3).
     """
     surface = tangent_directions(boundary, index)
-    return np.asarray((directions @ surface.T <= SLOPE).all(axis=1))
+    return np.asarray((directions @ surface.T <= NORMAL_SLOPE).all(axis=1))
 
 
 def tangent_directions(boundary: RegionBoundary, index: int) -> Array:
@@ -157,7 +157,7 @@ def _corners(boundary: RegionBoundary, index: int, number: int) -> list[_Corner]
 def _sector(corner: _Corner) -> Array:
     """Unit vectors from a corner's first edge to its last."""
     side = cross(corner.normal, corner.first)
-    turn = np.linspace(0.0, corner.angle, SECTOR)[:, None]
+    turn = np.linspace(0.0, corner.angle, SECTOR_DIRECTIONS)[:, None]
     return np.asarray(np.cos(turn) * corner.first + np.sin(turn) * side)
 
 

@@ -23,7 +23,7 @@ ALONG_BORDER = 1e-6
 """Newton steps along the border that are longer (radians) are not taken."""
 LEVEL_BRANCH = 1e-9
 """Slope against the border below which a branch runs along it."""
-SETTLED = 1e-14
+STEPS_SETTLED = 1e-14
 """Steps in u and v below which Newton's method has come to rest."""
 NEARLY, ROUGHLY = 1e-9, 1e-3
 """Its last steps in u and v may be so long where F_u = F_v = 0, and where F = F_v = 0."""
@@ -68,11 +68,11 @@ class Event:
     zone: float = 0.0
 
 
-ROOM = 0.3
+NEWTON_ROOM = 0.3
 """How far Newton's method may lead away from an approximate event."""
 
 
-FLAT = 1e-5
+FLAT_FOLD = 1e-5
 """Second derivative of F (whose coefficients are of size 1) that counts as zero at a fold."""
 
 
@@ -168,9 +168,9 @@ def _newton(
         du = -(g0 * fvv - row[1] * g1) / det
         dv = -(row[0] * g1 - fuv * g0) / det
         u, v = u + du, v + dv
-        if abs(u - start[0]) > ROOM or abs(v - start[1]) > ROOM:
+        if abs(u - start[0]) > NEWTON_ROOM or abs(v - start[1]) > NEWTON_ROOM:
             return None
-        if abs(du) + abs(dv) < SETTLED:
+        if abs(du) + abs(dv) < STEPS_SETTLED:
             break
     else:
         if abs(du) + abs(dv) > (NEARLY if critical else ROUGHLY):
@@ -253,7 +253,7 @@ def _fold(
     u, v = _wrapped(chart, *place)
     _, fu, _, _, _, fvv = (float(d) for d in f.derivatives(np.array(u), np.array(v)))
     rising = fvv * fu < 0
-    flat = abs(fvv) < FLAT
+    flat = abs(fvv) < FLAT_FOLD
     p = chart.point(np.array(u), np.array(v))
     hu, _ = chart.metric(u, v)
     near = 10 * float(np.sqrt(2 * window.tolerance * window.radius))

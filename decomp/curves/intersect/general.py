@@ -44,7 +44,7 @@ from decomp.curves.traced import TracedCurve
 from decomp.errors import ContactError
 from decomp.vectors import Array, dot, norm
 
-TURNS = (0.7345, 1.9213, 0.2817, 2.6431, 1.3579)
+CHART_TURNS = (0.7345, 1.9213, 0.2817, 2.6431, 1.3579)
 """Angles at which the chart is cut, tried in turn: any generic numbers."""
 HELD = 1e-5
 """F vanishes on an isoline if it is below this part of its largest coefficient."""
@@ -58,7 +58,7 @@ def general(a: Carrier, b: Carrier, window: Window) -> Intersection:
     """
     reason = ContactError(f"{a.kind} and {b.kind} touch in a way that cannot be resolved")
     for chart_carrier, other in _orders(a, b, window):
-        for turn in TURNS:
+        for turn in CHART_TURNS:
             try:
                 return _resolve(chart_carrier, other, window, turn)
             except UnresolvedError:

@@ -25,7 +25,7 @@ from decomp.curves.intersect.result import Intersection, PairCurve, Window, poin
 from decomp.curves.newton import cross_direction
 from decomp.vectors import Array, norm
 
-RANK = 1e-11
+EIGENVALUE_RANK = 1e-11
 """Eigenvalues below this part of the largest count as zero."""
 
 TOUCH = 1e-6
@@ -125,7 +125,7 @@ def _planes(qa: Array, qb: Array) -> list[Array] | None:
         values, vectors = np.linalg.eigh(q)
         order = np.argsort(-np.abs(values))
         values, vectors = values[order], vectors[:, order]
-        if abs(values[2]) > RANK * abs(values[0]):
+        if abs(values[2]) > EIGENVALUE_RANK * abs(values[0]):
             continue
         if abs(values[1]) <= DOUBLE_PLANE * abs(values[0]):
             return [vectors[:, 0]]

@@ -20,9 +20,9 @@ from decomp.meshing.surface.cells import locate
 from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Bools, Ints, norm
 
-BESIDE = 1e-9
+BESIDE_SHEET = 1e-9
 """A sheet's two sides are asked this part of the model's diagonal off it."""
-NEAR_CORNER = 6.0
+CORNER_REACH = 6.0
 """A corner takes nodes within so many epsilons."""
 SURFACE, LINE, CORNER = 2, 1, 0
 
@@ -175,7 +175,7 @@ class Finder:
             return np.full(len(places), -1, dtype=np.int64)
         at = self._plan.complex.points[self._plan.corners[rows]]
         gap, which = cKDTree(at).query(places)
-        near = gap < NEAR_CORNER * self._epsilon
+        near = gap < CORNER_REACH * self._epsilon
         return np.asarray(np.where(near, rows[which], -1), dtype=np.int64)
 
     def _lines_like(self, kinds: frozenset[int]) -> list[int]:
@@ -217,7 +217,7 @@ class Finder:
 
     def _parts(self, sites: tuple[int, int], surfaces: Ints, on: Array) -> Bools:
         """Whether one of two sites is the nearest on one side of surfaces, the other beyond."""
-        way = BESIDE * self._geometry.diagonal * self._elements.normal(surfaces, on)
+        way = BESIDE_SHEET * self._geometry.diagonal * self._elements.normal(surfaces, on)
         sides = np.concatenate([on - way, on + way])
         near = locate(self._geometry, self._cells, sides).site.reshape(2, -1)
         return np.asarray((np.sort(near, axis=0) == np.sort(sites)[:, None]).all(axis=0))

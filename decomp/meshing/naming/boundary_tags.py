@@ -7,14 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from decomp.meshing.surface.cells import OUTSIDE, locate
-from decomp.meshing.surface.followed import Followed
+from decomp.meshing.surface.followed import ASKED_OFF, Followed
 from decomp.skeletons.certificate.distance import TriangleTree, triangle_distance, triangle_tree
 from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-ASIDE = 0.5
-"""Nearest faces are asked so many epsilons off triangles, in their region."""
-TURNED = 3.0
+TURNED_COST = 3.0
 """A normal at right angles to a face's counts as much as a distance of so many epsilons."""
 ANY = -2
 
@@ -79,7 +77,7 @@ class BoundaryTags:
         normal /= np.maximum(norm(normal), TINY)[:, None]
         middle = corners.mean(axis=1, keepdims=True)
         asked = np.concatenate([middle, middle + 0.7 * (corners - middle)], axis=1)
-        asked = asked - ASIDE * self._epsilon * normal[:, None]
+        asked = asked - ASKED_OFF * self._epsilon * normal[:, None]
         found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
         candidates = self._cells.face[found.site].reshape(-1, 4)
         own = self._cells.region_of(found.part).reshape(-1, 4) == region
@@ -103,4 +101,4 @@ class BoundaryTags:
         carrier = boundary.carriers[boundary.faces[face].carrier]
         outward = boundary.faces[face].outward * carrier.normal(carrier.foot(corners.mean(axis=1)))
         off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._epsilon
-        return np.asarray(off + TURNED * (1 - dot(outward, normal)))
+        return np.asarray(off + TURNED_COST * (1 - dot(outward, normal)))

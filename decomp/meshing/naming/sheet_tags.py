@@ -5,16 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.meshing.surface.cells import locate
-from decomp.meshing.surface.followed import Followed
+from decomp.meshing.surface.followed import ASKED_OFF, Followed
 from decomp.skeletons.certificate.distance import triangle_distance, triangle_tree
 from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-ASIDE = 0.5
-"""Feet are asked so many epsilons off triangles, on both sides."""
-JUMP = 4.0
+FEET_JUMP = 4.0
 """Feet jump across a sheet by at least so many epsilons."""
-OWN = 1.2
+OWN_SHEET = 1.2
 """Nodes on the sheet of an edge with itself are at most so many epsilons off it at first."""
 
 
@@ -87,7 +85,7 @@ class SheetTags:
 
     def _near(self, points: Array, nodes: Ints, corners: Array) -> Bools:
         """Which of all points are nodes within some epsilons of triangles with given corners."""
-        reach = OWN * self._epsilon
+        reach = OWN_SHEET * self._epsilon
         low, high = corners.min(axis=(0, 1)) - reach, corners.max(axis=(0, 1)) + reach
         nodes = nodes[((points[nodes] >= low) & (points[nodes] <= high)).all(axis=1)]
         near = np.zeros(len(points), dtype=np.bool_)
@@ -113,8 +111,8 @@ class SheetTags:
     def _jumps(self, corners: Array) -> Bools:
         """Whether the feet on both sides of triangles, given by their corners, are far apart."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        way = normal * (ASIDE * self._epsilon / np.maximum(norm(normal), TINY))[:, None]
+        way = normal * (ASKED_OFF * self._epsilon / np.maximum(norm(normal), TINY))[:, None]
         middle = corners.mean(axis=1)
         asked = np.concatenate([middle - way, middle + way])
         feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
-        return np.asarray(norm(feet[0] - feet[1]) > JUMP * self._epsilon)
+        return np.asarray(norm(feet[0] - feet[1]) > FEET_JUMP * self._epsilon)

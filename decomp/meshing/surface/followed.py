@@ -10,6 +10,9 @@ from decomp.meshing.surface.cells import CellMap
 from decomp.meshing.surface.layout import Layout
 from decomp.meshing.surface.surface import MeshSurface
 
+ASKED_OFF = 0.5
+"""What a triangle belongs to is asked so many epsilons off it, on either side."""
+
 
 @dataclass(frozen=True, eq=False)
 class Followed:

@@ -31,7 +31,7 @@ WORKER = Path(__file__).with_name("worker.py")
 EDGE_IN_EPSILONS = 6.0
 """Edges are at least so many epsilons long."""
 ADVICE = "A larger size gives fewer elements and needs less time; the time limit can be raised too"
-PATIENCE = 4.0
+CLOCK_PATIENCE = 4.0
 """By the clock, work may take so many times as long as on a machine with nothing else to do."""
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
@@ -101,7 +101,7 @@ class TimeLimit:
     @classmethod
     def of_work(cls, seconds: float) -> TimeLimit:
         """For so much work, on a machine that may be doing other things beside it."""
-        return cls(PATIENCE * seconds, seconds)
+        return cls(CLOCK_PATIENCE * seconds, seconds)
 
 
 @dataclass(frozen=True, eq=False)
