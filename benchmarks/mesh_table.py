@@ -22,7 +22,7 @@ import decomp
 from benchmarks.skeleton_table import models
 from decomp.carriers import Plane
 from decomp.files.whole_file import write_whole
-from decomp.meshing.repairs.shortening import LONGEST
+from decomp.meshing.repairs.shortening import LONGEST_EDGE
 
 ROOT = Path(__file__).parents[1]
 OUTPUT = ROOT / "docs" / "meshes.md"
@@ -46,9 +46,10 @@ Written by `python -m benchmarks.mesh_table`; do not edit. Each model is meshed 
 at its default size, verified with `decomp check` and opened with Gmsh's library. `seconds` are the
 report's, all stages together. `mean of the least` is the mean over the tetrahedra of their least
 dihedral angle. `mean edge` and `longest edge` are in parts of the length asked for in a region or
-on a face with a `-maxh`, the least and the greatest of all such; the longest may have {LONGEST:g},
-the mean {LONG:g}, and no less than {SHORT:g} of the mean of what was wanted, which is less than
-asked where curvature, thin places, neighbours or the chords on curved faces want less. `off
+on a face with a `-maxh`, the least and the greatest of all such; the longest may have
+{LONGEST_EDGE:g}, the mean {LONG:g}, and no less than {SHORT:g} of the mean of what was wanted,
+which is less than asked where curvature, thin places, neighbours or the chords on curved faces
+want less. `off
 surface` is the greatest distance of a boundary node from its surface, but for
 those `left off`, which are counted; `bridging` are tetrahedra with all four corners on the
 boundary. Required: no shortcoming in the check (nothing inverted, no face in three tetrahedra, no
@@ -146,7 +147,7 @@ def line_of(name: str, row: dict[str, Any]) -> str:
         told(f"{least:.1f}", least >= LEAST),
         told(f"{mean:.1f}", mean >= MEAN),
         told(spread, about),
-        told(f"{longest:.2f}", longest <= LONGEST),
+        told(f"{longest:.2f}", longest <= LONGEST_EDGE),
         told(f"{checked['volume_error']:.1e}", checked["volume_error"] <= VOLUME),
         told(f"{row['off_surface']:.1e}", row["off_surface"] <= SURFACE),
         str(row["unprojected"]),

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-LONGEST = 1000
+LONGEST_ERROR = 1000
 """Characters of an error that are shown."""
 
 
@@ -33,8 +33,8 @@ class DecompError(Exception):
 
     def __str__(self) -> str:
         text = str(self.args[0]) if len(self.args) == 1 else super().__str__()
-        if len(text) > LONGEST:  # a name or a value out of a file is that long
-            text = f"{text[: LONGEST - 300]} ... {text[-300:]}"
+        if len(text) > LONGEST_ERROR:  # a name or a value out of a file is that long
+            text = f"{text[: LONGEST_ERROR - 300]} ... {text[-300:]}"
         return plain(text)
 
 

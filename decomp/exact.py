@@ -12,7 +12,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-CANCELLED = 16.0
+CANCELLING = 16.0
 """Numbers that are so many times larger than their difference lose digits in it."""
 
 Exact = tuple[Fraction, ...]
@@ -46,5 +46,5 @@ def seen_about(point: Iterable[float], origin: Iterable[float]) -> NDArray[np.fl
 def careful_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     """a - b, exactly rounded where a and b are so large that the plain difference loses digits."""
     plain = a - b
-    lost = (np.abs(a) + np.abs(b)) > CANCELLED * np.abs(plain)
+    lost = (np.abs(a) + np.abs(b)) > CANCELLING * np.abs(plain)
     return np.where(lost, difference(a, b), plain) if lost.any() else plain

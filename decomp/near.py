@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-MOST, LIKE = 3, 0.7
+MOST_NAMES, NAME_LIKE = 3, 0.7
 """So many names are suggested, and they are at least so like (1 is the same)."""
 
 
@@ -17,7 +17,7 @@ def near(name: str, known: Iterable[str]) -> str:
     spelled: dict[str, str] = {}
     for each in known:
         spelled.setdefault(each.casefold(), each)
-    found = [spelled[k] for k in get_close_matches(name.casefold(), spelled, MOST, LIKE)]
+    found = [spelled[k] for k in get_close_matches(name.casefold(), spelled, MOST_NAMES, NAME_LIKE)]
     if not found:
         return ""
     *rest, last = map(repr, found)

@@ -20,7 +20,7 @@ OUTSIDE, FAR = "outside", "far"
 """Names of the region and of the primitive that bounds it."""
 FACTOR = 2.0
 """Half its size by default, in diagonals of the model."""
-LEAST, MOST = 0.51, 1e4
+LEAST_FACTOR, MOST_FACTOR = 0.51, 1e4
 """The least reaches past every corner of the model; beyond the most it is a point."""
 
 
@@ -53,8 +53,10 @@ def with_outside(
     shape = one_of(shape, SHAPES, "shape")
     factor = number(factor, "factor")
     switch(only, "only")
-    if not LEAST <= factor <= MOST:
-        raise InputError(f"factor must be from {LEAST:g} to {MOST:g} diagonals, got {factor:g}")
+    if not LEAST_FACTOR <= factor <= MOST_FACTOR:
+        raise InputError(
+            f"factor must be from {LEAST_FACTOR:g} to {MOST_FACTOR:g} diagonals, got {factor:g}"
+        )
     geometry = source if isinstance(source, Geometry) else Geometry(source)
     regions = geometry.model.regions
     if any(region.name == OUTSIDE for region in regions):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 DIGITS = 6
 """Significant digits of coordinates near the origin."""
 MOST_DIGITS = 17
-FAR = 8.0
+FAR_SIZES = 8.0
 """What is so many sizes away takes more digits."""
 
 _frame: ContextVar[tuple[NDArray[np.float64], int, int] | None] = ContextVar("frame", default=None)
@@ -52,7 +52,7 @@ def digits_of(farthest: float, size: float, least: int = DIGITS) -> int:
         size: of what is to be told apart.
         least: the digits near the origin.
     """
-    more = ceil(log10(farthest / size)) if farthest > FAR * size else 0
+    more = ceil(log10(farthest / size)) if farthest > FAR_SIZES * size else 0
     return min(least + more, MOST_DIGITS)
 
 

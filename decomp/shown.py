@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-LONGEST, LONGEST_VALUE, MOST_ROWS = 300, 60, 40
+LONGEST_LINE, LONGEST_VALUE, MOST_ROWS = 300, 60, 40
 
 
 class Shown:
@@ -38,7 +38,7 @@ class Shown:
         name = f" {facts.pop('name')}" if "name" in facts else ""
         told = ", ".join(f"{key} {value}" for key, value in facts.items())
         text = f"<{type(self).__name__}{name}: {told}>"
-        return text if len(text) <= LONGEST else f"{text[: LONGEST - 4]}...>"
+        return text if len(text) <= LONGEST_LINE else f"{text[: LONGEST_LINE - 4]}...>"
 
     def _repr_html_(self) -> str:
         facts = [(key, short(value)) for key, value in self._facts().items() if value is not None]

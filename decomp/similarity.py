@@ -19,6 +19,8 @@ ALL_DIGITS = 1e-13
 """A matrix that is off by no more than this is a similarity to rounding."""
 DIGITS = 6
 """Numbers of so many significant digits were rounded to them; shorter ones are exact."""
+LAST_DIGIT = 4e-16
+"""A sine or cosine nearer to a half or whole number is that number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,4 +167,4 @@ def _shortest(value: float, error: float) -> float:
 def _clean(value: float) -> float:
     """Round sines and cosines of multiples of 30 degrees that are 0, 1/2 or 1 to exactly that."""
     nearest = round(2 * value) / 2
-    return nearest if abs(value - nearest) < 4e-16 else value
+    return nearest if abs(value - nearest) < LAST_DIGIT else value

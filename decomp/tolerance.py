@@ -10,6 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+TINY: Final = 1e-300
+"""Divisors are at least this: nothing by any tolerance, and yet not zero."""
+LAST_DIGIT: Final = 4e-16
+"""Numbers that differ by less than this part of them differ in their last digit only."""
+LAST_STEP: Final = 1e-15
+"""Newton's method can do no more when it moves by less than this part of a curve or model."""
+EXACTLY_PARALLEL: Final = 1e-15
+"""Sine of the angle between directions that are parallel to the last digit."""
+PARALLEL: Final = 1e-12
+"""Sine of the angle between directions that nothing but rounding keeps from being parallel."""
+ENLARGED: Final = 1e-9
+"""Balls and boxes around things are larger by this part, so that rounding puts none outside."""
+SAME_PARAMETER: Final = 1e-9
+"""Parameters of a curve are one if they differ by less than this part of its period or domain."""
 CONVERGED: Final = 1e-12
 """Newton's method has come to rest if it is off by less."""
 TOUCHING: Final = 1e-11
@@ -28,6 +42,14 @@ SINGULAR: Final = 1e-7
 """Sine of the angle between two normals below which they count as parallel."""
 AT_END: Final = 1e-6
 """What is nearer to the end of a curve, which may be extrapolated, is at it."""
+CHORDS: Final = 5e-4
+"""A skeleton's triangles are no farther from the exact sheets, if nothing else is asked for."""
+COARSEST_CHORDS: Final = 0.1
+"""The largest such distance that can be asked for."""
+OUT_OF_CELLS: Final = 2e-3
+"""Meshes may leave their cells by this part of a region's diagonal by default."""
+OFF_VOLUMES: Final = 5e-3
+"""Volumes of meshes may be off by this part by default, beside what straight edges leave out."""
 
 
 @dataclass(frozen=True)

@@ -136,14 +136,14 @@ def frame(axis: Array) -> tuple[Array, Array]:
     return x, cross(axis, x)
 
 
-BLOCK = 4096
+ROWS_AT_ONCE = 4096
 
 
 def nearest_rows(known: Array, points: Array) -> Ints:
     """For each of points (k, 3) the nearest of some known ones."""
     rows = np.empty(len(points), dtype=np.int64)
-    for start in range(0, len(points), BLOCK):
-        block = points[start : start + BLOCK]
+    for start in range(0, len(points), ROWS_AT_ONCE):
+        block = points[start : start + ROWS_AT_ONCE]
         gap = ((block[:, None] - known[None]) ** 2).sum(axis=2)
-        rows[start : start + BLOCK] = np.argmin(gap, axis=1)
+        rows[start : start + ROWS_AT_ONCE] = np.argmin(gap, axis=1)
     return rows

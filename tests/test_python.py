@@ -14,7 +14,7 @@ from PIL import Image
 import decomp
 from decomp.errors import InputError
 from decomp.near import listed, near
-from decomp.shown import LONGEST, Shown, short
+from decomp.shown import LONGEST_LINE, Shown, short
 
 
 @cache
@@ -50,7 +50,7 @@ def results() -> list[Any]:
 def test_every_result_is_short() -> None:
     for each in results():
         text = repr(each)
-        assert len(text) <= LONGEST, text
+        assert len(text) <= LONGEST_LINE, text
         assert "\n" not in text and "array(" not in text, text
         if isinstance(each, Shown):
             page = each._repr_html_()

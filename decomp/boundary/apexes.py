@@ -13,6 +13,9 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
 from decomp.vectors import Array, norm
 
+BESIDE_APEX = 1e-5
+"""Which faces have an apex is asked on a ring around it, this part of the scale away."""
+
 
 def apexes(
     form: HalfSpaceForm, member: Member, raw: Sequence[RawFace], points: Array
@@ -24,7 +27,7 @@ def apexes(
             continue
         if len(points) and norm(points - cone.tip).min() <= 10 * form.tolerance:
             continue
-        ring = cone.around_tip(1e-5 * form.scale)
+        ring = cone.around_tip(BESIDE_APEX * form.scale)
         for outward in (1, -1):
             if member.is_face(index, outward, ring).all():
                 here = [k for k, f in enumerate(raw) if (f.carrier, f.outward) == (index, outward)]

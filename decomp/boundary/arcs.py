@@ -26,10 +26,14 @@ from decomp.curves import (
 from decomp.curves.base import Curve
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
+from decomp.tolerance import PARALLEL
 from decomp.vectors import Array, Ints, norm
 
-PROBES = 23
+CURVE_PROBES = 23
 """Points of a curve that tell whether a carrier holds it."""
+TOUCH_KNOWN = 1e-6
+"""Where carriers touch, and nodes, are double points: they are located to the square root of the
+working precision, as a part of the scale."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,8 +120,7 @@ class _Arranger:
         self._cuts_of: list[Array] = []
         self._shared: dict[tuple[int, ...], list[int]] = {}
         self._lines = SharedLines(10 * form.tolerance)
-        # where carriers touch is located to the square root of the working precision
-        self.tangencies = Tangencies(1e-6 * form.scale)
+        self.tangencies = Tangencies(TOUCH_KNOWN * form.scale)
 
     def add_pair(self, i: int, j: int, found: Intersection) -> None:
         """Add the curves of two carriers; straight ones wait for `finish`."""
@@ -192,7 +195,7 @@ class _Arranger:
         centre, radius = curve.bounding_ball()
         ball = np.array([centre - radius, centre + radius])
         others = self._candidates(curve, ball, holding)
-        points = curve.point(np.linspace(*curve.domain, PROBES))
+        points = curve.point(np.linspace(*curve.domain, CURVE_PROBES))
         gaps = np.abs(form.table.distances(points, others)).max(axis=1)
         held = gaps <= form.tolerance
         near = overlap(form.carrier_boxes[others], np.array(_common(ball, box)))
@@ -251,8 +254,7 @@ class _Arranger:
             return np.empty(0)
         parameters = np.atleast_1d(curve.parameter(points))
         gap = norm(curve.point(parameters) - points)
-        # nodes are double points, located to the square root of the working precision
-        return np.asarray(parameters[gap <= 1e-6 * self.form.scale])
+        return np.asarray(parameters[gap <= TOUCH_KNOWN * self.form.scale])
 
 
 def _common(a: Array, b: Array) -> tuple[Array, Array]:
@@ -269,7 +271,7 @@ def _clipped(curve: Curve, low: Array, high: Array) -> Curve | None:
     first, last = curve.domain
     for k in range(3):
         slope = curve.direction[k]
-        if abs(slope) < 1e-12:
+        if abs(slope) < PARALLEL:
             if not low[k] <= curve.origin[k] <= high[k]:
                 return None
             continue

@@ -21,6 +21,11 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.errors import GeometryError
 from decomp.vectors import Array
 
+SUMMED = 1e-14
+"""Rounding of a sum of areas, or of volumes in units of the scale, as a part of the area."""
+OFF_EDGE = 1e-4
+"""A face's point of its own is looked for this part of the scale beside its edges."""
+
 
 def assembled(
     form: HalfSpaceForm,
@@ -83,7 +88,7 @@ def assembled(
     vertices = _vertices(points, finished) + tips
     area = sum(i.area for i in fine)
     volume = sum(i.flux for i in fine) / 3
-    error = abs(volume - sum(i.flux for i in coarse) / 3) + 1e-14 * area * form.scale
+    error = abs(volume - sum(i.flux for i in coarse) / 3) + SUMMED * area * form.scale
     verify = (lambda k: quadrature[k][0]), poles, fine
     refuse_wrong_turning(member, raw, edges, points, *verify, tips)
     refuse_wrong_volume(member, raw, edges, *verify, volume, error)
@@ -96,7 +101,7 @@ def assembled(
         volume,
         error,
         area,
-        sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + 1e-14 * area,
+        sum(abs(a.area - b.area) for a, b in zip(fine, coarse, strict=True)) + SUMMED * area,
         region_bounds(form, member, raw, finished, vertices),
         _euler(member, edges, sum(parts), raw),
     )
@@ -141,7 +146,7 @@ def _probes(face: RawFace, edges: Sequence[RawEdge], form: HalfSpaceForm, member
             for f in edge.flanks
             if f.carrier == face.carrier and f.direction_of_loop == half.direction
         )
-        near.append(edge.point + 1e-4 * form.scale * flank.direction)
+        near.append(edge.point + OFF_EDGE * form.scale * flank.direction)
     if not near:
         return face.point[None, :]
     candidates = carrier.project(np.array(near))

@@ -17,6 +17,8 @@ from decomp.vectors import Array, Bools, norm
 
 TILT = np.array([[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]])
 """A rotation by odd angles, so that steps do not run along the model's own planes."""
+BESIDE_POINT = 1e-7
+"""Whether a point is on a face is asked this part of the scale beside it."""
 
 
 def region_bounds(
@@ -69,7 +71,7 @@ def _near_face(form: HalfSpaceForm, member: Member, face: RawFace, points: Array
     carrier = form.carriers[face.carrier]
     on = np.zeros(len(points), dtype=np.bool_)
     for step in np.concatenate([np.eye(3), -np.eye(3)]) @ TILT:
-        moved = carrier.project(points + 1e-7 * form.scale * step)
+        moved = carrier.project(points + BESIDE_POINT * form.scale * step)
         on |= member.is_face(face.carrier, face.outward, moved)
     return on
 

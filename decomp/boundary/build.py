@@ -22,7 +22,7 @@ from decomp.csg.halfspaces import HalfSpaceForm, half_space_form
 from decomp.csg.model import EMPTY, Model, without_empty
 from decomp.csg.placing import AT_ORIGIN, placing_of
 from decomp.errors import EmptyRegionError, UnboundedRegionError
-from decomp.places import FAR, seen_from
+from decomp.places import FAR_SIZES, seen_from
 from decomp.vectors import Array, Ints, norm
 
 WINDOWS = (2.0, 2e4)
@@ -141,7 +141,7 @@ def boundaries(model: Model) -> Boundaries:
         with seen_from(form.offset, form.scale):
             result = _boundaries_of(model, form)
         better = placing_of(*result.box + form.offset)
-        strayed = norm(better.offset - form.offset) > FAR * result.diagonal
+        strayed = norm(better.offset - form.offset) > FAR_SIZES * result.diagonal
         if strayed or not 0.1 < result.diagonal / form.scale < 10:
             # what was estimated from the primitives was far off: again with true size and place
             form = half_space_form(model, result.diagonal, better if strayed else placing)

@@ -14,6 +14,11 @@ from decomp.places import place, triple
 from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, cross, norm, perpendicular
 
+INTO_REGIONS = 1e-6
+"""Where regions overlap is told this part of the scale off the face."""
+OPPOSITE_WAYS = 1e-6
+"""Length of the sum of two unit vectors below which they are opposite: it has no direction."""
+
 
 def refuse_unbounded(arrangement: Arrangement, member: Member) -> None:
     """Raise UnboundedRegionError if the region reaches the window's end.
@@ -67,7 +72,9 @@ def refuse_overlaps(form: HalfSpaceForm, arrangement: Arrangement, stars: list[S
             if len(double):
                 row = int(double[0])
                 normal = carrier.normal(points[row])
-                step = np.asarray(points[row] + (-1 if side else 1) * 1e-6 * form.scale * normal)
+                step = np.asarray(
+                    points[row] + (-1 if side else 1) * INTO_REGIONS * form.scale * normal
+                )
                 _raise_overlap(form, filled[row], step)
 
 
@@ -78,7 +85,7 @@ def _point_in_wedge(form: HalfSpaceForm, star: Star, wedge: int) -> Array:
     gap = (second.angle - first.angle) % (2 * np.pi)
     if gap > np.pi:
         between = -between
-    if float(norm(between)) < 1e-6:
+    if float(norm(between)) < OPPOSITE_WAYS:
         between = cross(cross(first.direction, second.direction), first.direction)
     for step in form.scale * 10.0 ** -np.arange(1, 12):
         point = star.point + step * between / (norm(between) or 1.0)

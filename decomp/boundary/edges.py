@@ -16,7 +16,11 @@ from decomp.boundary.wedges import SAME_DIRECTION, HalfSheet, Star
 from decomp.curves.base import Curve
 from decomp.errors import UnboundedRegionError
 from decomp.places import place, triple
+from decomp.tolerance import SAME_PARAMETER
 from decomp.vectors import Array, Bools, Ints, norm
+
+STRAIGHT_STEP = 1e-4
+"""Samples count as turned by so much more (radians), so that straight parts get some too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +82,7 @@ class RawEdge:
         tangents = self.curve.derivative(self.curve.wrapped(t))
         tangents = tangents / norm(tangents)[:, None]
         chords = np.clip((tangents[1:] * tangents[:-1]).sum(axis=1), -1, 1)
-        turned = np.concatenate([[0.0], np.cumsum(np.arccos(chords) + 1e-4)])
+        turned = np.concatenate([[0.0], np.cumsum(np.arccos(chords) + STRAIGHT_STEP)])
         count = max(9, int(np.ceil(turned[-1] / np.radians(5))) + 1)
         return self.at(np.interp(np.linspace(0, turned[-1], count), turned, t))
 
@@ -90,7 +94,7 @@ class RawEdge:
         if self.ends is None:
             return True
         shifts = (-self.curve.period, 0.0, self.curve.period) if self.curve.closed else (0.0,)
-        slack = 1e-9 * self.curve.period
+        slack = SAME_PARAMETER * self.curve.period
         return any(self.start - slack <= t + s <= self.end + slack for s in shifts)
 
 
@@ -242,7 +246,7 @@ def _continues(a: RawEdge, b: RawEdge, point: int) -> bool:
     sides_b = {(f.carrier, f.outward, f.leftward) for f in b.flanks}
     return (
         a.ends[1] == point == b.ends[0]
-        and min(gap, abs(gap - period)) <= 1e-9 * (high - low)
+        and min(gap, abs(gap - period)) <= SAME_PARAMETER * (high - low)
         and sides_a == sides_b
         and a.convexity == b.convexity
     )

@@ -38,7 +38,9 @@ RULES = (np.polynomial.legendre.leggauss(16), np.polynomial.legendre.leggauss(11
 SHORT_RULES = (np.polynomial.legendre.leggauss(7), np.polynomial.legendre.leggauss(5))
 
 MOST_HALVINGS = 8
+"""How often a panel of an edge is halved at most."""
 PANEL_ERROR = 1e-13
+"""Panels are halved until the rules differ by less than this part of the edge's length."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,13 @@ from decomp.boundary.member import Member
 from decomp.carriers import Carrier
 from decomp.errors import ContactError
 from decomp.places import place
+from decomp.tolerance import TINY
 from decomp.vectors import Array, frame, norm
 
 SAME_RAY = 1e-12
 """Two edges along one arc leave a vertex at angles that differ by less."""
+FIRST_STEP = 1e-6
+"""The way from the end of an edge to a point at a given distance begins with this part of it."""
 
 
 @dataclass(frozen=True)
@@ -232,7 +235,7 @@ def _arriving(edge: RawEdge, at_start: bool) -> Flank:
 def _normal(carrier: Carrier, point: Array) -> Array:
     """A direction to look from: the outward normal, at a cone's apex against its axis."""
     tip, inward = carrier.tip, carrier.tip_axis
-    if tip is not None and inward is not None and float(norm(point - tip)) <= 1e-300:
+    if tip is not None and inward is not None and float(norm(point - tip)) <= TINY:
         return -inward
     return carrier.normal(point)
 
@@ -245,7 +248,7 @@ def _point_near_end(edge: RawEdge, at_start: bool, reach: float) -> Array:
     """A point of the edge at about distance `reach` from one end."""
     end, sign = (edge.start, 1.0) if at_start else (edge.end, -1.0)
     tip = edge.at(np.array(end))
-    step = 1e-6 * (edge.end - edge.start)
+    step = FIRST_STEP * (edge.end - edge.start)
     while float(norm(edge.at(np.array(end + sign * step)) - tip)) < reach:
         step *= 1.2
         if step > edge.end - edge.start:

@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.vectors import Array
 
-NEIGHBOURS = tuple(product((-1, 0, 1), repeat=3))
+CELLS_AROUND = tuple(product((-1, 0, 1), repeat=3))
 
 
 class PointTable:
@@ -22,7 +22,7 @@ class PointTable:
     def add(self, point: Array) -> int:
         """Index of the point, a new one unless a point within the tolerance is known."""
         cell = tuple(int(c) for c in np.floor(point / (4 * self._tolerance)))
-        for step in NEIGHBOURS:
+        for step in CELLS_AROUND:
             for index in self._cells.get(tuple(c + s for c, s in zip(cell, step, strict=True)), ()):
                 if float(np.linalg.norm(self._points[index] - point)) <= self._tolerance:
                     return index

@@ -25,10 +25,13 @@ from decomp.curves.circle import Circle
 from decomp.curves.intersect.planes import ellipse
 from decomp.curves.line import Line
 from decomp.curves.straight import line_crossings
+from decomp.tolerance import PARALLEL, SAME_PARAMETER
 from decomp.vectors import Array, Bools, Ints, cross, norm, perpendicular
 
-CLEAR = 1e-4
+CLEAR_OF_VERTICES = 1e-4
 """How far, in units of the reach, rays keep away from vertices where they can."""
+BEYOND_EDGE = (1e-2, 1e-3, 1e-4)
+"""A point that no face covers is looked for beyond edges, these parts of the radius off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +90,7 @@ class Walker:
         for half in (h for loop in self.loops.loops for h in loop):
             edge = self.edges[half.edge]
             flank = next(f for f in edge.flanks if f.carrier == self.loops.carrier)
-            for step in (1e-2, 1e-3, 1e-4):
+            for step in BEYOND_EDGE:
                 beyond = edge.point - step * radius * flank.direction
                 outside.append(((beyond - centre) / norm(beyond - centre))[None, :])
         candidates = np.concatenate(outside)
@@ -110,7 +113,7 @@ class Walker:
             x = (point - carrier.place) / carrier.width
             y = self.pole - (self.pole @ x) * x
             length = float(norm(y))
-            side = y / length if length > 1e-12 else perpendicular(x)
+            side = y / length if length > PARALLEL else perpendicular(x)
             return Circle(carrier.place, x, side, carrier.width)
         return None
 
@@ -129,7 +132,7 @@ class Walker:
             gap = self._vertex_gap(ray)
             if gap > clearest:
                 best, clearest = moved, gap
-            if gap > CLEAR * self.reach:
+            if gap > CLEAR_OF_VERTICES * self.reach:
                 break
         return best
 
@@ -153,7 +156,7 @@ class Walker:
         gaps = (
             (t - start) % side.period if side.closed else t - start for t, _ in self._cuts(side)
         )
-        gap = min((gap for gap in gaps if gap > 1e-9 * side.period), default=side.period)
+        gap = min((gap for gap in gaps if gap > SAME_PARAMETER * side.period), default=side.period)
         return side.point(side.wrapped(np.array(start + fraction * gap)))
 
     def _vertex_gap(self, ray: Curve) -> float:

@@ -35,8 +35,8 @@ from decomp.vectors import Array, norm
 
 BOLD = 1.0
 """A tangent that turns by more than this angle between two samples is sampled more finely."""
-FINE = 513
-CUSP = 1e-3
+FINE_SAMPLES = 513
+CUSP_ANGLE = 1e-3
 """A corner with an interior angle so close to 0 or 2 pi may have either."""
 
 
@@ -123,7 +123,7 @@ def turning(
             tip = samples(half.edge)[0][-1 if half.direction > 0 else 0]
             if carrier.tip is not None and float(norm(tip - carrier.tip)) <= near:
                 total += np.pi  # from one ruling to the other, past the apex
-            elif abs(turn) > np.pi - CUSP:
+            elif abs(turn) > np.pi - CUSP_ANGLE:
                 total += abs(turn)
                 cusps += 1
                 corners.append(Corner(vertex, np.nan))
@@ -154,7 +154,7 @@ def _angles(
         angles = np.arctan2(half.direction * face.outward * across, half.direction * along)
         if np.abs(_wrapped(np.diff(angles))).max(initial=0.0) > BOLD:
             edge = edges[half.edge]
-            t = edge.curve.wrapped(np.linspace(edge.start, edge.end, FINE))
+            t = edge.curve.wrapped(np.linspace(edge.start, edge.end, FINE_SAMPLES))
             where = edge.curve.point(t)
             along, across = carrier.in_frames(where, edge.curve.derivative(t), pole)
             angles = np.arctan2(half.direction * face.outward * across, half.direction * along)

@@ -24,7 +24,7 @@ from decomp.carriers import Torus
 from decomp.errors import GeometryError
 from decomp.vectors import Array
 
-ROOM = 1e-3
+ANGLE_ROOM = 1e-3
 """By how much the angles around a vertex may exceed a full turn: tangents at nodes are inexact."""
 ERRORS = 10.0
 AGREEMENT = 1e-9
@@ -81,7 +81,7 @@ def refuse_wrong_turning(
             if np.isfinite(angle):
                 around[vertex, face.carrier, face.outward] += angle
     for (vertex, index, _), angle in around.items():
-        if angle > 2 * np.pi + ROOM:
+        if angle > 2 * np.pi + ANGLE_ROOM:
             raise GeometryError(
                 f"region {member.name!r}: its boundary was not found: the faces on "
                 f"{form.carrier_name(index)} have angles of {np.degrees(angle):.6g} degrees "

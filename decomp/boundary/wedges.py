@@ -23,10 +23,10 @@ from decomp.vectors import Array, Bools, cross, norm
 SAME_DIRECTION = 1e-7
 """Half-sheets whose directions differ by less than this angle leave tangentially."""
 
-CLEAR = 1e-12
+CERTAIN_SIGN = 1e-12
 """A signed distance above this part of the scale has a certain sign: points are exact to 1e-15."""
 
-BLOCK = 1024
+ARCS_AT_ONCE = 1024
 """Arcs that are looked at together: memory grows with this times the number of carriers."""
 
 
@@ -68,13 +68,13 @@ class Star:
 
 def stars(arrangement: Arrangement) -> list[Star]:
     """The surroundings of every arc."""
-    blocks = range(0, len(arrangement.arcs), BLOCK)
+    blocks = range(0, len(arrangement.arcs), ARCS_AT_ONCE)
     return [star for first in blocks for star in _block_of_stars(arrangement, first)]
 
 
 def _block_of_stars(arrangement: Arrangement, first: int) -> list[Star]:
     """The surroundings of up to BLOCK arcs from number `first` on."""
-    arcs = arrangement.arcs[first : first + BLOCK]
+    arcs = arrangement.arcs[first : first + ARCS_AT_ONCE]
     points = np.array([_clear_point(arrangement, arc) for arc in arcs])
     inside = arrangement.form.signed_distances(points) < 0
     rings = [_half_sheets(arrangement, arc, point) for arc, point in zip(arcs, points, strict=True)]
@@ -101,13 +101,13 @@ def _clear_point(arrangement: Arrangement, arc: Arc) -> Array:
         gaps[~overlap(form.carrier_boxes, np.stack([points, points], axis=1)[:, None])] = np.inf
         clear = gaps.min(axis=1)
         best = int(np.argmax(clear))
-        if clear[best] > CLEAR * form.scale:
+        if clear[best] > CERTAIN_SIGN * form.scale:
             return np.asarray(points[best])
     blocker = int(np.argmin(gaps[best]))
     raise ContactError(
         f"{form.carrier_name(blocker)} runs along the curve in which "
         f"{' and '.join(form.carrier_name(k) for k in holding)} meet, closer than the "
-        f"resolution {CLEAR * form.scale:.3g} but not along all of it, near {{at}}",
+        f"resolution {CERTAIN_SIGN * form.scale:.3g} but not along all of it, near {{at}}",
         at=points[best],
     )
 

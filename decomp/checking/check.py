@@ -38,15 +38,12 @@ from decomp.meshing.surface.surface import SurfaceMaker, Surfaces
 from decomp.paths import path_of
 from decomp.places import place
 from decomp.shown import Shown
-from decomp.tolerance import TOLERANCE
+from decomp.tolerance import OFF_VOLUMES, OUT_OF_CELLS, TOLERANCE
 from decomp.vectors import Array, Ints, positive
 
-EPSILON = 2e-3
-"""Default of what meshes may leave their cells by, relative to the region's diagonal."""
-VOLUME_ERROR = 5e-3
 FINENESS = 0.5
 """Sheets are drawn to this part of epsilon."""
-REACH = 2.0
+INTO_OTHERS = 2.0
 """Tetrahedra may reach so many epsilons into a cell that is not theirs."""
 
 
@@ -81,8 +78,8 @@ def check(
     source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
     mesh: TetMesh | ReadMesh | str | Path,
     *,
-    epsilon: float = EPSILON,
-    volume_error: float = VOLUME_ERROR,
+    epsilon: float = OUT_OF_CELLS,
+    volume_error: float = OFF_VOLUMES,
     unprojected: int = 0,
     surfaces: Surfaces = SurfaceMaker,
     progress: Callable[[str, float], None] | None = None,
@@ -261,13 +258,13 @@ def _reaching(
     cells: KnownCells | None,
     epsilon: float,
 ) -> Iterator[str]:
-    """Tetrahedra with a node or their middle deeper than `REACH` epsilons in a foreign cell."""
+    """Tetrahedra with a node or middle deeper than `INTO_OTHERS` epsilons in a foreign cell."""
     middles = mesh.points[mesh.tets[:, :4]].mean(axis=1)
     points = np.concatenate([mesh.points, middles])
     asked = np.column_stack([mesh.tets, len(mesh.points) + np.arange(len(mesh.tets))])
     own_region = _regions(mesh.tet_tags, names, geometry)
     nearest = geometry.index.nearest(points)
-    limit = REACH * epsilon * np.array([region.diagonal for region in geometry.regions])
+    limit = INTO_OTHERS * epsilon * np.array([region.diagonal for region in geometry.regions])
     at = nearest.region[asked]
     wrong = (at != own_region[:, None]) & (own_region[:, None] >= 0)
     deep = wrong & (nearest.distance[asked] > limit[own_region][:, None])
@@ -295,6 +292,6 @@ def _told(mesh: ReadMesh, rows: Ints, what: str) -> Iterator[str]:
     if len(rows):
         middle = mesh.points[mesh.tets[rows[0], :4]].mean(axis=0)
         yield (
-            f"{len(rows)} tetrahedra reach more than {REACH:g} epsilon into a {what} that is not "
-            f"theirs, the first near {place(middle)}"
+            f"{len(rows)} tetrahedra reach more than {INTO_OTHERS:g} epsilon into a {what} that is "
+            f"not theirs, the first near {place(middle)}"
         )

@@ -18,6 +18,7 @@ from decomp.geometry import Geometry
 from decomp.meshes.faces import TRIANGLE_EDGES
 from decomp.meshes.files.msh_reader import ReadMesh
 from decomp.meshes.quality import volumes
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot, norm
 
 
@@ -93,7 +94,7 @@ def _nearest(geometry: Geometry, corners: Array, kinds: Sequence[Kind]) -> Ints:
     if len(kinds) == 1:
         return np.zeros(len(corners), dtype=np.int64)
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = np.sqrt(np.maximum(norm(normal), 1e-300))
+    size = np.sqrt(np.maximum(norm(normal), TINY))
     cost = []
     for (number, carrier, outward), *_ in kinds:
         surface = geometry.regions[number].carriers[carrier]

@@ -23,7 +23,7 @@ from decomp.files.targets import check_outputs, reason
 from decomp.meshes.files.table import FORMATS
 from decomp.plain import plain
 
-PATIENCE = 1.5
+SECONDS_TO_END = 1.5
 """Seconds that a process is given to end when it is asked to."""
 
 Tell = Callable[[str, float], None]
@@ -200,7 +200,7 @@ class _Workers:
         for process in self._all:
             if process.poll() is None:
                 process.terminate()
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + SECONDS_TO_END
         for process in self._all:
             try:
                 process.wait(max(0.0, end - time.monotonic()))

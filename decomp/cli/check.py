@@ -12,11 +12,10 @@ from decomp.cli.arguments import input_path, positive
 from decomp.cli.models import FILES, Around, add_outside, model_of
 from decomp.cli.said import say
 from decomp.errors import DecompError, InputError
+from decomp.tolerance import OFF_VOLUMES, OUT_OF_CELLS
 
 if TYPE_CHECKING:
     from decomp.checking.check import Checked
-
-EPSILON, VOLUME_ERROR = 2e-3, 5e-3
 
 
 def register(commands: Any) -> None:
@@ -34,18 +33,18 @@ def register(commands: Any) -> None:
     parser.add_argument(
         "--epsilon",
         type=positive,
-        default=EPSILON,
+        default=OUT_OF_CELLS,
         metavar="E",
         help="tetrahedra may reach 2 E into another cell, relative to the region's diagonal "
-        f"(default {EPSILON:g})",
+        f"(default {OUT_OF_CELLS:g})",
     )
     parser.add_argument(
         "--volume-error",
         type=positive,
-        default=VOLUME_ERROR,
+        default=OFF_VOLUMES,
         metavar="E",
         help="of a region, relative, at most, besides what straight edges of their length leave "
-        f"out at curved faces (default {VOLUME_ERROR:g})",
+        f"out at curved faces (default {OFF_VOLUMES:g})",
     )
     parser.add_argument(
         "--unprojected",

@@ -12,12 +12,10 @@ from typing import TYPE_CHECKING
 from decomp.cli.arguments import input_path
 from decomp.cli.models import FILES, Around, add_outside, model_of
 from decomp.plain import plain
+from decomp.tolerance import CHORDS, COARSEST_CHORDS
 
 if TYPE_CHECKING:
     from decomp.skeletons.model import RegionSkeleton, Skeleton
-
-TOLERANCE = 5e-4
-LARGEST = 0.1
 
 
 def add_options(parser: argparse.ArgumentParser, files: str = FILES) -> None:
@@ -26,10 +24,10 @@ def add_options(parser: argparse.ArgumentParser, files: str = FILES) -> None:
     parser.add_argument(
         "--tolerance",
         type=_tolerance,
-        default=TOLERANCE,
+        default=CHORDS,
         metavar="T",
         help="largest distance of a triangle from its exact surface, relative to the model's "
-        f"diagonal (default {TOLERANCE:g})",
+        f"diagonal (default {CHORDS:g})",
     )
     add_method(parser)
     add_outside(parser)
@@ -107,6 +105,8 @@ def _tolerance(text: str) -> float:
         value = float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r} is no number") from None
-    if not isfinite(value) or not 0 < value <= LARGEST:
-        raise argparse.ArgumentTypeError(f"must be above 0 and at most {LARGEST:g}, not {text}")
+    if not isfinite(value) or not 0 < value <= COARSEST_CHORDS:
+        raise argparse.ArgumentTypeError(
+            f"must be above 0 and at most {COARSEST_CHORDS:g}, not {text}"
+        )
     return value

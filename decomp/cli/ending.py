@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import NoReturn
 
-AGAIN, AT_LAST = 2, 2
+RAISED_AGAIN, AT_LAST = 2, 2
 """Seconds after which the error is raised once more, and those after which the system ends us."""
 
 
@@ -105,7 +105,7 @@ class _Ending:
         if number != signal.SIGINT and sys.platform != "win32":
             # an error raised in a callback of compiled code is lost
             signal.signal(signal.SIGALRM, self._end_again)
-            signal.alarm(AGAIN)
+            signal.alarm(RAISED_AGAIN)
         raise self.error()
 
     def _end_again(self, number: int, frame: FrameType | None) -> None:

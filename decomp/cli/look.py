@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from decomp.drawing.picture import Look
 
 VIEWS = ("iso", "+x", "-x", "+y", "-y", "+z", "-z")
-LEAST, MOST = 64, 8192
+LEAST_PIXELS, MOST_PIXELS = 64, 8192
 """Pixels along a side of a picture."""
 
 
@@ -101,6 +101,8 @@ def _size(text: str) -> tuple[int, int]:
     if found is None:
         raise argparse.ArgumentTypeError(f"{text!r} is no size such as 1200x900")
     width, height = int(found[1]), int(found[2])
-    if not all(LEAST <= side <= MOST for side in (width, height)):
-        raise argparse.ArgumentTypeError(f"sides must be from {LEAST} to {MOST} pixels, not {text}")
+    if not all(LEAST_PIXELS <= side <= MOST_PIXELS for side in (width, height)):
+        raise argparse.ArgumentTypeError(
+            f"sides must be from {LEAST_PIXELS} to {MOST_PIXELS} pixels, not {text}"
+        )
     return width, height

@@ -8,16 +8,16 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any, NoReturn
 
-WIDTH = 80
+HELP_WIDTH = 80
 """Columns of help at most: longer lines are hard to read."""
 MISUSED = 2
 """Exit code where the command line is wrong."""
-LIKE = 0.75
+OPTION_LIKE = 0.75
 """How like an option a misspelt one has to be, from 0 to 1, to be taken for it."""
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose help is at most `WIDTH` wide, and whose errors take two lines."""
+    """A parser whose help is at most `HELP_WIDTH` wide, and whose errors take two lines."""
 
     def __init__(self, *args: Any, **named: Any) -> None:
         super().__init__(*args, **{**named, "formatter_class": _Help})
@@ -39,7 +39,7 @@ class Parser(argparse.ArgumentParser):
         """The option that may be meant."""
         name = word.split("=")[0]
         known = self._option_string_actions if name.startswith("--") else ()
-        near = get_close_matches(name, known, 1, LIKE)
+        near = get_close_matches(name, known, 1, OPTION_LIKE)
         return f"; did you mean {near[0]}?" if near else ""
 
 
@@ -47,7 +47,7 @@ class _Help(argparse.HelpFormatter):
     """Descriptions are wrapped; examples, which have several lines, are left as they are."""
 
     def __init__(self, prog: str) -> None:
-        super().__init__(prog, width=min(WIDTH, shutil.get_terminal_size().columns) - 2)
+        super().__init__(prog, width=min(HELP_WIDTH, shutil.get_terminal_size().columns) - 2)
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         if "\n" in text:

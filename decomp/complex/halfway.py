@@ -10,11 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.complex.many_elements import Elements
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, dot, norm
 
-STEP = 0.05
+HALFWAY_STEP = 0.05
 """Length of a step, as a part of the edge's."""
-STEPS = 200
+HALFWAY_STEPS = 200
 STRAY = 0.5
 """A step that leads farther away than this part of itself from where it aims is not believed."""
 MIDDLE = 1e-3
@@ -36,15 +37,15 @@ def halfway(elements: Elements, numbers: Ints, ends: Array) -> Array:
     length = norm(goal - ends[:, 0])
     found = np.full_like(point, np.nan)
     rows = np.arange(len(point))
-    reach = np.full(len(point), STEP)
-    for _ in range(STEPS):
+    reach = np.full(len(point), HALFWAY_STEP)
+    for _ in range(HALFWAY_STEPS):
         if not len(rows):
             break
         at, step = point[rows], reach[rows] * length[rows]
         normal = elements.normal(numbers[rows], at)
         way = goal[rows] - at
         way = way - dot(way, normal)[:, None] * normal
-        way /= np.maximum(norm(way), 1e-300)[:, None]
+        way /= np.maximum(norm(way), TINY)[:, None]
         aim = at + step[:, None] * way
         moved = elements.place(numbers[rows], aim)
         near = norm(moved - aim) <= STRAY * step

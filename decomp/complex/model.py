@@ -10,8 +10,15 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
+import numpy as np
+
 from decomp.shown import Shown
 from decomp.vectors import Array, Bools, Ints
+
+SIDES: Ints = np.array([[0, 1], [1, 2], [2, 0]])
+"""The sides of a triangle by its corners, in order around it."""
+OPPOSITE_SIDES: Ints = np.array([[1, 2], [2, 0], [0, 1]])
+"""The side opposite to each corner of a triangle."""
 
 
 class CurveElement(Protocol):

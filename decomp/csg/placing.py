@@ -14,7 +14,7 @@ from math import floor, log2
 import numpy as np
 
 from decomp.exact import Exact, binary, exact, rounded
-from decomp.places import FAR
+from decomp.places import FAR_SIZES
 from decomp.similarity import IDENTITY, Similarity
 from decomp.vectors import Array, frozen, norm
 
@@ -65,7 +65,7 @@ def placing_of(low: Array, high: Array) -> Placing:
     The centre is rounded to a grid as wide as the box, so that its digits are few.
     """
     size, middle = float(norm(high - low)), (low + high) / 2
-    if not float(norm(middle)) > FAR * size:
+    if not float(norm(middle)) > FAR_SIZES * size:
         return AT_ORIGIN
     grid = _grid(size)
     return Placing(IDENTITY, frozen(np.round(middle / grid) * grid), grid)

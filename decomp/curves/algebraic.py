@@ -12,8 +12,12 @@ from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.curves.critical import critical_points
 from decomp.curves.series import Series, series
-from decomp.curves.touching import APART, Touching
+from decomp.curves.touching import CROSSINGS_APART, Touching
+from decomp.tolerance import LAST_DIGIT
 from decomp.vectors import Array, Bools, dot
+
+POLISHING_STEP = 1e-7
+"""Newton steps longer than this part of the period lead elsewhere: they are not taken."""
 
 
 def conic_roots(
@@ -34,7 +38,7 @@ def conic_roots(
     values = f.value(stops)
     touch = np.abs(carrier.signed_distance(curve.point(stops))) <= tolerance
     if touch.any():
-        dips = _dips(f, curve, stops, touch, APART * tolerance)
+        dips = _dips(f, curve, stops, touch, CROSSINGS_APART * tolerance)
         if dips.any():
             dips[dips] = ~touches(curve.point(curve.wrapped(stops[dips])))
         touch &= ~dips
@@ -103,7 +107,7 @@ def bracketed(f: Series, slope: Series, low: Array, high: Array) -> Array:
         d = slope.value(t)
         new = t - value / np.where(d == 0, 1.0, d)
         new = np.where((new > low) & (new < high) & (d != 0), new, (low + high) / 2)
-        done = np.abs(new - t) <= 4e-16 * (np.abs(low) + np.abs(high))
+        done = np.abs(new - t) <= LAST_DIGIT * (np.abs(low) + np.abs(high))
         t = new
         if done.all():
             break
@@ -116,5 +120,5 @@ def on_carrier(curve: Curve, carrier: Carrier, t: Array) -> Array:
         p = curve.point(t)
         d = dot(carrier.normal(p), curve.derivative(t))
         step = carrier.signed_distance(p) / np.where(d == 0, 1.0, d)
-        t = np.where((np.abs(step) < 1e-7 * curve.period) & (d != 0), t - step, t)
+        t = np.where((np.abs(step) < POLISHING_STEP * curve.period) & (d != 0), t - step, t)
     return t

@@ -12,7 +12,7 @@ import numpy as np
 from decomp.curves.series import Series
 from decomp.vectors import Array
 
-ROUNDING = 1e-14
+BOUND_ROUNDING = 1e-14
 """A polynomial is nothing but rounding below this part of its bound."""
 
 
@@ -34,7 +34,7 @@ def critical_points(f: Series, period: float | None, noise: float = 0.0) -> Arra
         zeros = np.concatenate([zeros[first:], zeros[:first] + period])
     between = (zeros[1:] + zeros[:-1]) / 2
     highest = np.abs(f.value(np.stack([zeros[:-1], between, zeros[1:]]))).max(axis=0)
-    ends = np.flatnonzero(highest > max(noise, ROUNDING * f.bound())) + 1
+    ends = np.flatnonzero(highest > max(noise, BOUND_ROUNDING * f.bound())) + 1
     clusters = np.split(zeros, ends)
     single = np.array([len(cluster) == 1 for cluster in clusters])
     means = np.array([cluster.mean() for cluster in clusters])

@@ -14,7 +14,11 @@ from decomp.curves.base import Curve
 from decomp.curves.sampled import traced_roots
 from decomp.curves.touching import Touching, anywhere
 from decomp.curves.traced import TracedCurve
+from decomp.tolerance import ENLARGED
 from decomp.vectors import Array, Bools, Ints, norm
+
+SPEED_ROUNDED = 1e-12
+"""The speed between samples may be larger by this part than at both, for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +66,7 @@ def may_cross(curve: Curve, *carriers: Carrier) -> Bools:
     """Tell which carriers come within reach of the curve's bounding ball (Lipschitz)."""
     centre, radius = curve.bounding_ball()
     distances = [float(c.signed_distance(centre)) for c in carriers]
-    return np.asarray(np.abs(np.array(distances)) <= radius * (1 + 1e-9))
+    return np.asarray(np.abs(np.array(distances)) <= radius * (1 + ENLARGED))
 
 
 def crossing_candidates(
@@ -76,7 +80,7 @@ def crossing_candidates(
     """
     table = carriers if isinstance(carriers, CarrierTable) else CarrierTable(carriers)
     centre, radius = curve.bounding_ball()
-    slack = 1e-9 * radius + tolerance
+    slack = ENLARGED * radius + tolerance
     near = np.nonzero(np.abs(table.distances(centre[None])[:, 0]) <= radius + slack)[0]
     if len(near) == 0:
         return near
@@ -94,7 +98,7 @@ def _speed_bound(curve: Curve, t: Array) -> Array:
     speed = norm(curve.derivative(t))
     if curve.kind == "ellipse":
         return np.full(len(t) - 1, float(speed.max()) * 1.01)
-    return np.asarray(np.maximum(speed[1:], speed[:-1]) * (1 + 1e-12))
+    return np.asarray(np.maximum(speed[1:], speed[:-1]) * (1 + SPEED_ROUNDED))
 
 
 def _once(curve: Curve, t: Array, touch: Bools, tolerance: float) -> tuple[Array, Bools]:

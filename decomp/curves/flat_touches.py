@@ -14,12 +14,13 @@ from numpy.polynomial import chebyshev
 from decomp.curves.base import Curve
 from decomp.curves.critical import critical_points
 from decomp.curves.series import Chebyshev
+from decomp.tolerance import LAST_STEP
 from decomp.vectors import Array, Ints, norm
 
-WINDOW = 0.15
+HALF_WINDOW = 0.15
 """Half of the length over which the polynomial is taken, as a part of the curve's size."""
 DEGREE = 16
-NOISE = 2e-15
+DISTANCE_NOISE = 2e-15
 """Signed distances are no more exact than this part of the coordinates."""
 
 Function = Callable[[Array], Array]
@@ -60,9 +61,9 @@ def _told(curve: Curve, distance: Function, group: Array, tolerance: float) -> f
     """Where the one touch is that a group of them stands for."""
     nearest = float(group[np.argmin(np.abs(distance(group)))])
     centre, size = curve.bounding_ball()
-    noise = NOISE * (size + float(norm(centre)))
+    noise = DISTANCE_NOISE * (size + float(norm(centre)))
     middle, half = float(group[0] + group[-1]) / 2, float(group[-1] - group[0]) / 2
-    low, high = middle - WINDOW * size, middle + WINDOW * size
+    low, high = middle - HALF_WINDOW * size, middle + HALF_WINDOW * size
     if not curve.closed and (low < curve.domain[0] or high > curve.domain[1]):
         return nearest
     # a touch of second order leaves the tolerance within its root
@@ -73,7 +74,7 @@ def _told(curve: Curve, distance: Function, group: Array, tolerance: float) -> f
     origin, tangent = curve.point(np.array(middle)), curve.derivative(np.array(middle))
     tangent = tangent / norm(tangent)
     nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
-    t = middle + WINDOW * size * nodes
+    t = middle + HALF_WINDOW * size * nodes
     along = (curve.point(t) - origin) @ tangent
     width = float(np.abs(along).max())
     matrix = chebyshev.chebvander(along / width, DEGREE)
@@ -92,6 +93,6 @@ def _at(curve: Curve, t: float, origin: Array, tangent: Array, place: float) -> 
         slope = float(curve.derivative(np.array(t)) @ tangent)
         step = (place - float((curve.point(np.array(t)) - origin) @ tangent)) / slope
         t += step
-        if abs(step) <= 1e-15 * curve.period:
+        if abs(step) <= LAST_STEP * curve.period:
             break
     return t

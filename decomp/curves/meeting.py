@@ -8,9 +8,12 @@ import numpy as np
 
 from decomp.carriers import Carrier, Cylinder, Plane, Sphere, Torus
 from decomp.carriers.table import CarrierTable
+from decomp.tolerance import EXACTLY_PARALLEL
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
-BLOCK = 2_000_000
+PAIRS_AT_ONCE = 2_000_000
+DRIFT = 1e-14
+"""Axes that move apart by less are parallel, however small the tolerance is; a length."""
 
 
 def may_meet(a: Carrier, b: Carrier, tolerance: float) -> bool:
@@ -29,7 +32,7 @@ def meeting_pairs(
     reach = radius + tolerance
     near = np.nonzero(np.abs(table.distances(centre[None])[:, 0]) <= reach)[0]
     pairs: list[tuple[int, int]] = []
-    rows = max(1, BLOCK // max(len(near), 1))
+    rows = max(1, PAIRS_AT_ONCE // max(len(near), 1))
     for start in range(0, len(near), rows):
         block = near[start : start + rows]
         i, j = np.nonzero(block[:, None] < near[None, :])
@@ -89,7 +92,7 @@ def _planes(
     size = norm(cross)
     if centre is None:
         gap = np.abs(dot(a[:, :3] - b[:, :3], a[:, 3:6]))
-        return np.asarray((size > 1e-15) | (gap <= tolerance))
+        return np.asarray((size > EXACTLY_PARALLEL) | (gap <= tolerance))
     fa = dot(centre - a[:, :3], a[:, 3:6])[:, None]
     fb = dot(centre - b[:, :3], b[:, 3:6])[:, None]
     foot = np.cross(fa * b[:, 3:6] - fb * a[:, 3:6], cross)
@@ -105,7 +108,7 @@ def _plane_cylinder(
     slope = np.abs(dot(n, k))
     if centre is None:
         distance = np.abs(dot(b[:, :3] - a[:, :3], n))
-        return np.asarray((slope > 1e-15) | (distance <= b[:, 6] + tolerance))
+        return np.asarray((slope > EXACTLY_PARALLEL) | (distance <= b[:, 6] + tolerance))
     middle = b[:, :3] + dot(centre - b[:, :3], k)[:, None] * k
     distance = np.abs(dot(middle - a[:, :3], n))
     across = np.sqrt(np.maximum(1 - slope**2, 0.0))
@@ -125,7 +128,7 @@ def _cylinders(
     pa = a[:, :3] + dot(start - a[:, :3], ka)[:, None] * ka
     pb = b[:, :3] + dot(start - b[:, :3], kb)[:, None] * kb
     away = pb - pa
-    parallel = sine * max(reach, 1.0) <= max(tolerance, 1e-14)
+    parallel = sine * max(reach, 1.0) <= max(tolerance, DRIFT)
     side = norm(away - dot(away, ka)[:, None] * ka)
     apart = (side > r + s + tolerance) | (side < np.abs(r - s) - tolerance)
     gap = np.abs(dot(away, cross)) / np.where(sine > 0, sine, 1.0)

@@ -7,7 +7,7 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.vectors import Array, cross, norm
 
-EXACT = 1e-14
+NEWTON_LAST_STEP = 1e-14
 """Steps smaller than this part of the greatest coordinate are the last."""
 
 
@@ -22,7 +22,7 @@ def onto_pair(a: Carrier, b: Carrier, p: Array, along: Array, steps: int = 6) ->
 
     moved = np.array(p, dtype=np.float64).reshape(-1, 3)
     ways = np.ascontiguousarray(np.broadcast_to(along, np.shape(p)), dtype=np.float64)
-    small = EXACT * float(np.max(np.abs(moved), initial=0.0))
+    small = NEWTON_LAST_STEP * float(np.max(np.abs(moved), initial=0.0))
     move_onto_pair(table_of(a, b), moved, ways.reshape(-1, 3), steps, small)
     return moved.reshape(np.shape(p))
 

@@ -15,7 +15,8 @@ from decomp.carriers import Carrier
 from decomp.curves.algebraic import is_tangent
 from decomp.curves.base import Curve
 from decomp.curves.flat_touches import flat_touches
-from decomp.curves.touching import APART, Touching
+from decomp.curves.touching import CROSSINGS_APART, Touching
+from decomp.tolerance import LAST_DIGIT
 from decomp.vectors import Array, Bools, dot, norm
 
 SPLIT = 4
@@ -23,7 +24,7 @@ MOST_LEVELS = 8
 FASTEST = 1.2
 """Bound of the speed |x'(t)| of a traced curve, whose samples turn by a few degrees."""
 
-AT_REST = 1e-10
+ROOT_AT_REST = 1e-10
 """Steps of Newton's method below this part of a curve's length have come to rest."""
 
 Function = Callable[[Array], Array]
@@ -57,7 +58,7 @@ def traced_roots(
     if len(deep):
         start = _bracketed(distance, low[dip][deep], bottom[deep])
         stop = _bracketed(distance, bottom[deep], high[dip][deep])
-        apart = norm(curve.point(stop) - curve.point(start)) > APART * tolerance
+        apart = norm(curve.point(stop) - curve.point(start)) > CROSSINGS_APART * tolerance
         touch[deep] = ~apart | touches(curve.point(bottom[deep]))
     through = ~touch & (depth * side[dip] < 0)
     start = np.concatenate([low[cross], low[dip][through], bottom[through]])
@@ -113,7 +114,7 @@ def _bracketed(f: Function, low: Array, high: Array) -> Array:
     root = np.where(fa == 0, a, b)
     done = (fa == 0) | (fb == 0)
     before = np.zeros(low.shape)
-    small = 4e-16 * (np.abs(low) + np.abs(high))
+    small = LAST_DIGIT * (np.abs(low) + np.abs(high))
     for step in range(80):
         if done.all():
             break
@@ -147,7 +148,7 @@ def _settled(
         d = slope(crossing)
         step = carrier.signed_distance(curve.point(crossing)) / np.where(d == 0, 1.0, d)
         crossing = np.where(tangent, t, crossing - step)
-    tangent = tangent | (np.abs(step) > AT_REST * curve.period)
+    tangent = tangent | (np.abs(step) > ROOT_AT_REST * curve.period)
     return curve.wrapped(np.where(tangent, t, crossing)), tangent
 
 

@@ -26,6 +26,9 @@ from decomp.curves.polynomial import (
 )
 from decomp.vectors import Array
 
+NO_TERM = 1e-14
+"""Last coefficients below this part of the largest are left out."""
+
 
 class Series(ABC):
     """A function f of the curve's parameter."""
@@ -110,7 +113,7 @@ class Chebyshev(Series):
 
     def zeros(self) -> Array:
         size = np.abs(self.c).max(initial=0.0)
-        keep = np.nonzero(np.abs(self.c) > 1e-14 * size)[0]
+        keep = np.nonzero(np.abs(self.c) > NO_TERM * size)[0]
         if size == 0.0 or keep[-1] == 0:
             return np.empty(0)
         s = chebyshev.chebroots(self.c[: keep[-1] + 1])

@@ -16,8 +16,13 @@ from decomp.carriers.kinds import KINDS
 from decomp.carriers.table import CarrierTable
 from decomp.curves.crossings import crossings
 from decomp.curves.line import Line
-from decomp.curves.touching import APART, anywhere
+from decomp.curves.touching import CROSSINGS_APART, anywhere
 from decomp.vectors import Array, Bools, Ints
+
+NO_SQUARE = 1e-14
+"""Coefficient of t^2, for a unit direction, up to which the equation is linear."""
+SLOPE_STEP = 1e-6
+"""Slopes of distances are differences over this part of the line, to both sides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +86,9 @@ def _quadratic_roots(
         spread = np.sqrt(np.maximum(square, 0.0))
         single = -constant / (2 * half)
         below, above = middle - spread, middle + spread
-    straight = np.abs(quadratic) <= 1e-14
+    straight = np.abs(quadratic) <= NO_SQUARE
     touch = ~straight & _touches(line, table, among, middle, tolerance)
-    for row in np.flatnonzero(touch & (2 * spread > APART * tolerance)):
+    for row in np.flatnonzero(touch & (2 * spread > CROSSINGS_APART * tolerance)):
         touch[row] = touches(int(among[row]), line.point(middle[row : row + 1]))[0]
     crossing = ~straight & ~touch & (square > 0)
     rows = np.arange(len(among))
@@ -121,7 +126,7 @@ def _polished(line: Line, table: CarrierTable, which: Ints, t: Array) -> Array:
     """One Newton step on the signed distance; not at touches, where its slope is zero."""
     points = line.point(t)
     distance = _own_distance(table, which, points)
-    step = 1e-6 * (line.domain[1] - line.domain[0])
+    step = SLOPE_STEP * (line.domain[1] - line.domain[0])
     ahead = _own_distance(table, which, line.point(t + step))
     behind = _own_distance(table, which, line.point(t - step))
     slope = (ahead - behind) / (2 * step)

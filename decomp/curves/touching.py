@@ -16,7 +16,7 @@ from decomp.vectors import Array, Bools
 Touching = Callable[[Array], Bools]
 """Tells for points (n, 3) whether a curve that dips through a carrier there touches it."""
 
-APART = 20.0
+CROSSINGS_APART = 20.0
 """Crossings are two if they are further from each other than so many tolerances."""
 
 

@@ -17,11 +17,13 @@ import numpy as np
 from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.curves.newton import cross_direction, onto_pair
-from decomp.tolerance import SINGULAR
+from decomp.tolerance import LAST_STEP, SAME_PARAMETER, SINGULAR
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 STRAYED = 0.2
 """Newton's method moves no point by more than this part of its distance from a singular end."""
+NO_TANGENT = 1e-5
+"""Sine of the angle between the normals below which they tell no tangent: chords do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +87,7 @@ class TracedCurve(Curve):
             slope = np.maximum(dot(g1, g1) - dot(away, g2), 0.1)
             step = np.clip(dot(away, g1) / slope, -span, span)
             t = self.wrapped(t + step)
-            if float(np.max(np.abs(step), initial=0.0)) < 1e-15 * self.period:
+            if float(np.max(np.abs(step), initial=0.0)) < LAST_STEP * self.period:
                 break
         return t.reshape(p.shape[:-1])
 
@@ -117,7 +119,7 @@ class TracedCurve(Curve):
         return p
 
     def _at_singular_end(self, t: Array) -> Bools:
-        near = 1e-9 * self.period
+        near = SAME_PARAMETER * self.period
         first, last = self.singular
         return np.asarray(
             (first & (t - self.domain[0] < near)) | (last & (self.domain[1] - t < near))
@@ -187,7 +189,7 @@ def sample_tangents(
     rough = rough / norm(rough)[:, None]
     size[[0, -1]] = np.where(singular, 0.0, size[[0, -1]])
     sign = np.where(dot(d, rough) < 0, -1.0, 1.0)[:, None]
-    return np.where((size > 1e-5)[:, None], sign * d, rough)
+    return np.where((size > NO_TANGENT)[:, None], sign * d, rough)
 
 
 def _beyond(samples: Array) -> Array:

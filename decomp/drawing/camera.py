@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.tolerance import TINY
 from decomp.vectors import Array, cross
 
 ASLANT = (0.45, -0.75, 0.48)
@@ -19,7 +20,7 @@ VIEWS = {
     "-z": (0.0, 0.0, -1.0),
 }
 """Ways from the model to the eye, by name."""
-STEEP = 1e-6
+FROM_ABOVE = 1e-6
 """The eye is right above or below if its share across z is less: then x points to the right."""
 
 
@@ -28,7 +29,7 @@ def axes(eye: Array) -> Array:
     towards = eye / np.linalg.norm(eye)
     right = cross(np.array([0.0, 0.0, 1.0]), towards)
     length = float(np.linalg.norm(right))
-    right = right / length if length > STEEP else np.array([1.0, 0.0, 0.0])
+    right = right / length if length > FROM_ABOVE else np.array([1.0, 0.0, 0.0])
     up = cross(towards, right)
     return np.stack([right, up / np.linalg.norm(up), towards])
 
@@ -66,6 +67,6 @@ def fitted(points: Array, eye: Array, low: Array, high: Array) -> Projection:
     frame = axes(eye)
     flat = points @ frame[:2].T
     least, most = flat.min(axis=0), flat.max(axis=0)
-    scale = float(((high - low) / np.maximum(most - least, 1e-300)).min())
+    scale = float(((high - low) / np.maximum(most - least, TINY)).min())
     middle = (least + most) / 2 * (scale, -scale)
     return Projection(frame, scale, (low + high) / 2 - middle)

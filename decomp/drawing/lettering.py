@@ -13,11 +13,11 @@ from decomp.drawing.camera import Projection
 from decomp.vectors import Array
 
 INK = "#222222"
-LETTERS, LEAST = 48, 11
+LETTERS, LEAST_LETTER = 48, 11
 """A letter's height as a part of the picture's, and the least in pixels."""
-WIDEST = 0.34
+WIDEST_NAMES = 0.34
 """The greatest share of the picture's width that names take."""
-FOOT = 5
+FOOT_LETTERS = 5
 """Height of what is below the drawing, in letters."""
 BAR = 0.22
 """The greatest share of the drawing's width that the bar of lengths takes."""
@@ -50,17 +50,17 @@ class Layout:
 
 def layout(names: Sequence[tuple[str, str]], width: int, height: int) -> Layout:
     """Make room for names (with their colours), as many as fit, and for the bar below."""
-    letter = max(LEAST, height // LETTERS)
+    letter = max(LEAST_LETTER, height // LETTERS)
     font = ImageFont.load_default(letter)
     room = max(1, int((height - 2 * letter) / (1.5 * letter)))
     listed = list(names)
     if len(listed) > room:
         listed = [*listed[: room - 1], (f"and {len(listed) - room + 1} more", "")]
-    space = WIDEST * width - 4 * letter
+    space = WIDEST_NAMES * width - 4 * letter
     listed = [(_shortened(name, font, space), colour) for name, colour in listed]
     taken = max((font.getlength(name) for name, _ in listed), default=0.0)
     column = width - round(taken + 3.5 * letter) if listed else width
-    return Layout(width, height, letter, tuple(listed), column, height - FOOT * letter)
+    return Layout(width, height, letter, tuple(listed), column, height - FOOT_LETTERS * letter)
 
 
 def _shortened(name: str, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, space: float) -> str:
@@ -119,7 +119,7 @@ def _directions(
 ) -> None:
     """Where x, y and z point to, in the lower right corner of the drawing."""
     reach = 1.5 * place.letter
-    middle = np.array([place.column, place.height]) - FOOT / 2 * place.letter
+    middle = np.array([place.column, place.height]) - FOOT_LETTERS / 2 * place.letter
     for k in np.argsort(axes[2], kind="stable").tolist():  # what comes nearer is drawn last
         way = axes[:2, k] * (1, -1)
         end, sign = middle + reach * way, middle + 1.35 * reach * way

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from PIL import Image
 
+from decomp.complex.model import OPPOSITE_SIDES
 from decomp.drawing.camera import ASLANT, fitted
 from decomp.drawing.colouring import Shown, shown
 from decomp.drawing.colours import rgb
@@ -18,18 +19,17 @@ from decomp.drawing.raster import Triangles, joined, painted
 from decomp.drawing.scene import Body, Scene
 from decomp.errors import InputError
 from decomp.meshes.incidence import row_keys
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-WIDTH, HEIGHT, FINER = 1200, 900, 2
+PICTURE_WIDTH, PICTURE_HEIGHT, PAINTED_FINER = 1200, 900, 2
 """Size of pictures if none is given, and how much finer they are painted, to be smooth."""
-MARGIN = 0.05
+DRAWING_MARGIN = 0.05
 """Share of the drawing left free on each side."""
 CREASE = 25.0
 """Skeletons have lines where triangles meet at more than this angle in degrees."""
-ON = 1e-9
+ON_PLANE = 1e-9
 """Points nearer to a plane than this part of the model's extent are on it."""
-SIDES: Ints = np.array([[1, 2], [2, 0], [0, 1]])
-"""The side opposite to each corner."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +59,8 @@ class Look:
 
     eye: Array = field(default_factory=lambda: np.array(ASLANT))
     clip: Clip | None = None
-    width: int = WIDTH
-    height: int = HEIGHT
+    width: int = PICTURE_WIDTH
+    height: int = PICTURE_HEIGHT
 
 
 def encoded(scene: Scene, look: Look) -> bytes:
@@ -74,10 +74,10 @@ def encoded(scene: Scene, look: Look) -> bytes:
     names = list(dict.fromkeys((each.label, each.colour) for each in parts))
     place = layout(names, look.width, look.height)
     size = np.array([place.column, place.foot], dtype=np.float64)
-    low, high = MARGIN * size, (1 - MARGIN) * size
+    low, high = DRAWING_MARGIN * size, (1 - DRAWING_MARGIN) * size
     points = triangles.corners.reshape(-1, 3)
-    fine = fitted(points, look.eye, FINER * low, FINER * high)
-    image = painted(triangles, fine, FINER * look.width, FINER * look.height)
+    fine = fitted(points, look.eye, PAINTED_FINER * low, PAINTED_FINER * high)
+    image = painted(triangles, fine, PAINTED_FINER * look.width, PAINTED_FINER * look.height)
     picture = Image.fromarray(_smaller(image))
     lettered(picture, place, fitted(points, look.eye, low, high))
     stream = io.BytesIO()
@@ -87,8 +87,8 @@ def encoded(scene: Scene, look: Look) -> bytes:
 
 def _smaller(image: Array) -> np.ndarray:
     """An image in its final size, with smooth edges, in bytes."""
-    height, width = image.shape[0] // FINER, image.shape[1] // FINER
-    small = image.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3))
+    height, width = image.shape[0] // PAINTED_FINER, image.shape[1] // PAINTED_FINER
+    small = image.reshape(height, PAINTED_FINER, width, PAINTED_FINER, 3).mean(axis=(1, 3))
     return np.asarray(255 * np.clip(small, 0, 1) + 0.5).astype(np.uint8)
 
 
@@ -101,7 +101,7 @@ def _clipped(scene: Scene, parts: list[Shown], look: Look) -> Triangles:
     origin = float(scene.origin[clip.axis])
     at = (least + most) / 2 if clip.at is None else clip.at - origin
     away = 1.0 if look.eye[clip.axis] >= 0 else -1.0
-    reach = ON * float(np.ptp(scene.points, axis=0).max(initial=0.0))
+    reach = ON_PLANE * float(np.ptp(scene.points, axis=0).max(initial=0.0))
     distance = away * (at - scene.points[:, clip.axis])
     distance[np.abs(distance) <= reach] = 0.0
     if body is not None and clip.whole:
@@ -163,8 +163,8 @@ def creases(points: Array, triangles: Ints) -> Bools:
     """Which sides (k, 3) of triangles are borders, or bend by more than CREASE."""
     corners = points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(norm(normal), 1e-300)[:, None]
-    keys = row_keys(triangles[:, SIDES].reshape(-1, 2))
+    normal /= np.maximum(norm(normal), TINY)[:, None]
+    keys = row_keys(triangles[:, OPPOSITE_SIDES].reshape(-1, 2))
     order = np.argsort(keys, kind="stable")
     _, first, count = np.unique(keys[order], return_index=True, return_counts=True)
     pair = first[count == 2]

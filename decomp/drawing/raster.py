@@ -8,6 +8,7 @@ import numpy as np
 
 from decomp.drawing.camera import Projection
 from decomp.kernels.compiled import scalar
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, cross, norm
 
 LIGHT = np.array([0.2, -0.6, 0.77])
@@ -43,7 +44,7 @@ def painted(triangles: Triangles, projection: Projection, width: int, height: in
     """An image (height, width, 3) of triangles, lit from above, on white."""
     corners = triangles.corners
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normal /= np.maximum(norm(normal), 1e-300)[:, None]
+    normal /= np.maximum(norm(normal), TINY)[:, None]
     bright = 0.55 + 0.45 * np.abs(normal @ (LIGHT / np.linalg.norm(LIGHT)))
     image = np.ones((height, width, 3))
     depth = np.full((height, width), -np.inf)
@@ -65,9 +66,9 @@ def draw(screen: Array, colours: Array, sides: Bools, image: Array, depth: Array
             continue
         # heights of the corners over the opposite sides, in pixels; without a line, out of reach
         far = 1e300
-        ha = abs(area) / max(((bx - cx) ** 2 + (by - cy) ** 2) ** 0.5, 1e-300)
-        hb = abs(area) / max(((ax - cx) ** 2 + (ay - cy) ** 2) ** 0.5, 1e-300)
-        hc = abs(area) / max(((ax - bx) ** 2 + (ay - by) ** 2) ** 0.5, 1e-300)
+        ha = abs(area) / max(((bx - cx) ** 2 + (by - cy) ** 2) ** 0.5, TINY)
+        hb = abs(area) / max(((ax - cx) ** 2 + (ay - cy) ** 2) ** 0.5, TINY)
+        hc = abs(area) / max(((ax - bx) ** 2 + (ay - by) ** 2) ** 0.5, TINY)
         for row in range(max(0, int(min(ay, by, cy))), min(height, int(max(ay, by, cy)) + 1)):
             y = row + 0.5
             for column in range(max(0, int(min(ax, bx, cx))), min(width, int(max(ax, bx, cx)) + 1)):

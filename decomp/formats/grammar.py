@@ -27,6 +27,21 @@ PROBED_TOKENS = 20_000
 
 NUMBER = r"(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?+"
 
+MARKS: dict[str, str] = {
+    "=": "_EQUALS",
+    ",": "_COMMA",
+    "(": "_LPAR",
+    ")": "_RPAR",
+    "[": "_LSQB",
+    "]": "_RSQB",
+    ";": "SEMI",
+}
+"""Signs that are tokens in all formats, as their grammars call them."""
+MARKS_WITHIN: dict[str, str] = {kind: f"'{mark}'" for mark, kind in MARKS.items() if mark != ";"}
+"""What an error says for those that end no statement."""
+ENDS: dict[str, str] = {"SEMI": "';'", "$END": "the end of the file"}
+"""What an error says for what a statement, and the text, end with."""
+
 
 def token_pattern(comment: str, number: str, others: str) -> re.Pattern[str]:
     """The pattern of one token after blanks and comments, with a named group per kind.

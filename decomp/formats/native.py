@@ -35,6 +35,12 @@ from decomp.similarity import Similarity
 from decomp.vectors import Array, frozen
 
 __all__ = ["dumps", "encoded", "read"]
+UNIT = 1e-12
+"""A direction whose length lacks less to 1 is a unit vector, and kept as it is."""
+ORTHOGONAL = 1e-9
+"""The entries of a rotation times its transpose are no farther off."""
+FIXED_TO = 1e-12
+"""A point that a transform leaves where it is moves by less, as a part of the coordinates."""
 
 
 def read(source: Source, name: str = "model") -> Model:
@@ -140,7 +146,7 @@ def _primitive(item: Item, cls: type[Primitive], fields: Mapping[str, str]) -> P
         raise InputError(f"{item.where}: {error}") from None
     for key, kind in fields.items():
         # a direction that is a unit vector stays as it is, to the last bit
-        if kind == "d" and abs(float(np.linalg.norm(values[key])) - 1) < 1e-12:
+        if kind == "d" and abs(float(np.linalg.norm(values[key])) - 1) < UNIT:
             object.__setattr__(result, key, values[key])
     return result
 
@@ -151,7 +157,7 @@ def _similarity_in(value: Any, where: str) -> Similarity:
     place = item.place("rotation")
     rows = [a_vector(row, place) for row in item.items("rotation")]
     rotation = frozen(rows) if len(rows) == 3 else frozen(np.zeros((3, 3)))
-    if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-9:
+    if np.abs(rotation @ rotation.T - np.eye(3)).max() > ORTHOGONAL:
         raise InputError(f"{place} must be an orthogonal matrix, three rows of three numbers")
     scale = item.number("scale")
     if scale <= 0:
@@ -170,7 +176,7 @@ def _similarity_in(value: Any, where: str) -> Similarity:
 def _refuse_loose(by: Similarity, fixed: Array, where: str) -> None:
     """Raise InputError if a fixed point is none."""
     size = float(np.abs(fixed).max() + np.abs(by.offset).max())
-    if float(np.abs(by.points(fixed) - fixed).max()) > 1e-12 * (1 + by.scale) * size:
+    if float(np.abs(by.points(fixed) - fixed).max()) > FIXED_TO * (1 + by.scale) * size:
         raise InputError(f"{where} must be a point that the transform leaves where it is")
 
 

@@ -27,7 +27,17 @@ from decomp.csg.solid import (
     checked_name,
 )
 from decomp.errors import FileError, InputError
-from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern, tokens
+from decomp.formats.grammar import (
+    ENDS,
+    MARKS,
+    MARKS_WITHIN,
+    NUMBER,
+    Language,
+    numbers,
+    parse,
+    token_pattern,
+    tokens,
+)
 from decomp.formats.netgen_flags import Flag, options, plain
 from decomp.formats.netgen_solids import COPIES, PRIMITIVES, STEPS, WRITTEN, Vector
 from decomp.formats.source import Source
@@ -78,13 +88,7 @@ LANGUAGE = Language(
         "or": "_OR",
         "not": "_NOT",
         "define": "DEFINE",
-        ";": "SEMI",
-        ",": "_COMMA",
-        "(": "_LPAR",
-        ")": "_RPAR",
-        "[": "_LSQB",
-        "]": "_RSQB",
-        "=": "_EQUALS",
+        **MARKS,
         **dict.fromkeys(STATEMENTS, "STATEMENT"),
         **dict.fromkeys(UNSUPPORTED, "UNSUPPORTED"),
         **{word: "MOVE" if word in MOVES else "PRIMITIVE" for word in WRITTEN},
@@ -100,15 +104,9 @@ LANGUAGE = Language(
         "_NOT": "'not'",
         "_AND": "'and'",
         "_OR": "'or'",
-        "_EQUALS": "'='",
-        "_COMMA": "','",
-        "_LPAR": "'('",
-        "_RPAR": "')'",
-        "_LSQB": "'['",
-        "_RSQB": "']'",
+        **MARKS_WITHIN,
         "FLAG": "a flag such as -maxh=0.5",
-        "SEMI": "';'",
-        "$END": "the end of the file",
+        **ENDS,
     },
 )
 

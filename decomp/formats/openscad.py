@@ -13,7 +13,16 @@ from typing import TYPE_CHECKING, Any
 from decomp.csg.model import Model, Region
 from decomp.csg.solid import Solid
 from decomp.errors import FileError
-from decomp.formats.grammar import NUMBER, Language, numbers, parse, token_pattern
+from decomp.formats.grammar import (
+    ENDS,
+    MARKS,
+    MARKS_WITHIN,
+    NUMBER,
+    Language,
+    numbers,
+    parse,
+    token_pattern,
+)
 from decomp.formats.openscad_shapes import EMPTY, PARAMETERS, Call, Circle, Fault, Shape, Shapes
 from decomp.formats.source import Source
 
@@ -33,30 +42,18 @@ LANGUAGE = Language(
         r"|(?P<MARK>[;,()=\[\]{}%#*!])",
     ),
     kinds={
-        ";": "SEMI",
-        ",": "_COMMA",
-        "(": "_LPAR",
-        ")": "_RPAR",
-        "[": "_LSQB",
-        "]": "_RSQB",
+        **MARKS,
         "{": "_LBRACE",
         "}": "_RBRACE",
-        "=": "_EQUALS",
         **dict.fromkeys("%#*!", "MODIFIER"),
     },
     words={
         "NAME": "a name such as cube",
         "NUMBERS": "a number",
-        "_EQUALS": "'='",
-        "_COMMA": "','",
-        "_LPAR": "'('",
-        "_RPAR": "')'",
-        "_LSQB": "'['",
-        "_RSQB": "']'",
+        **MARKS_WITHIN,
         "_LBRACE": "'{'",
         "_RBRACE": "'}'",
-        "SEMI": "';'",
-        "$END": "the end of the file",
+        **ENDS,
     },
 )
 

@@ -15,7 +15,7 @@ from decomp.meshes.group import Group, GroupKind
 from decomp.meshes.model import TetMesh
 from decomp.shown import Shown
 
-START, LINE = b"decomp: ", 200
+START, LINE_BYTES = b"decomp: ", 200
 KEYS = ("groups", "regions", "cells", "surfaces")
 
 
@@ -67,8 +67,8 @@ def about_lines(known: About | None) -> Iterator[bytes]:
     values |= {key: [_plain(group) for group in getattr(known, key)] for key in KEYS}
     values |= {key: getattr(known, key) for key in ("materials", "sizes", "unprojected")}
     text = json.dumps(values, separators=(",", ":")).replace("$", "\\u0024").encode()
-    for start in range(0, len(text), LINE):
-        yield START + text[start : start + LINE]
+    for start in range(0, len(text), LINE_BYTES):
+        yield START + text[start : start + LINE_BYTES]
 
 
 def read_about(comments: bytes) -> About | None:

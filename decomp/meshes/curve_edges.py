@@ -6,10 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.complex.model import SIDES
 from decomp.meshes.incidence import row_keys
 from decomp.vectors import Bools, Ints
-
-EDGES: Ints = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +45,7 @@ class CurvePoints:
 
 def curve_edges(triangles: Ints, tags: Ints) -> CurveEdges:
     """Find them among the edges of triangles (k, 3) or (k, 6) of surfaces told by tags (k,)."""
-    edges = triangles[:, EDGES].reshape(-1, 2)
+    edges = triangles[:, SIDES].reshape(-1, 2)
     tags = np.repeat(tags, 3)
     middles = triangles[:, 3:].reshape(-1) if triangles.shape[1] == 6 else np.zeros_like(tags)
     _, edge, count = np.unique(row_keys(edges), return_inverse=True, return_counts=True)

@@ -11,7 +11,7 @@ from decomp.vectors import Ints
 
 TOLD = 0.1
 """What decides at less than this part of a region's nodes is not told,"""
-MOST = 3
+MOST_TOLD = 3
 """nor more than so many."""
 
 
@@ -45,4 +45,4 @@ def deciders(mesh: TetMesh, tets: Ints) -> tuple[Decider, ...]:
         for number, count in zip(numbers.tolist(), counts.tolist(), strict=True)
         if not mesh.reasons[number].asked and count >= TOLD * len(nodes)
     ]
-    return tuple(sorted(found, key=lambda each: -each.share)[:MOST])
+    return tuple(sorted(found, key=lambda each: -each.share)[:MOST_TOLD])

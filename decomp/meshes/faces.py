@@ -8,6 +8,7 @@ from math import acos, pi, sqrt
 import numpy as np
 
 from decomp.kernels.compiled import kernel
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot
 
 OPPOSITE = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -15,9 +16,8 @@ OPPOSITE = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 EDGES = np.array([[0, 1], [1, 2], [2, 0], [3, 0], [3, 2], [3, 1]])
 TRIANGLE_EDGES = EDGES[:3]
 """The edges of a tetrahedron in Gmsh's order."""
-TINY = 1e-300
 NONE = -1
-MOST = 1 << 21
+MOST_VERTICES = 1 << 21
 """With fewer vertices three numbers of vertices fit into one of 64 bits."""
 
 
@@ -69,7 +69,7 @@ def _keys(triangles: Ints) -> Ints:
     """
     low, middle, high = np.sort(triangles, axis=1).T
     width = int(high.max(initial=0)) + 1
-    if width < MOST:
+    if width < MOST_VERTICES:
         return np.asarray((low * width + middle) * width + high)
     # the two first vertices are few beside all pairs
     _, pair = np.unique(low * width + middle, return_inverse=True)

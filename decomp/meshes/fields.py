@@ -32,7 +32,7 @@ from decomp.vectors import Array, Ints, norm
 
 AT_NODES, AT_TETS = ("distance", "thickness"), ("nearest", "cell", "region")
 FIELDS = (*AT_NODES, *AT_TETS)
-INSIDE = 1e-5
+ASKED_INSIDE = 1e-5
 """Nodes nearer to the boundary than this part of the diagonal are asked from this far inside."""
 
 
@@ -99,7 +99,7 @@ def thickness(geometry: Geometry, mesh: TetMesh, of_tet: Ints) -> Array:
     owner = np.empty(len(points), dtype=np.int64)
     owner[mesh.tets[order]] = order[:, None]  # the deepest is written last
     region = of_tet[owner]
-    inside = INSIDE * geometry.diagonal
+    inside = ASKED_INSIDE * geometry.diagonal
     found = index.nearest(points)
     shallow = np.flatnonzero((found.distance < inside) | (found.region != region))
     way = centre[owner[shallow]] - points[shallow]

@@ -29,7 +29,7 @@ Volumes = Literal["regions", "cells", "materials"]
 Named = Mapping[str, "str | Sequence[str]"]
 """Patterns, one or several, by the name of the group that joins what they stand for."""
 VOLUMES = ("regions", "cells", "materials")
-WHAT = {3: "regions", 2: "faces", 1: "edges", 0: "vertices"}
+NAMES_OF_DIMENSION = {3: "regions", 2: "faces", 1: "edges", 0: "vertices"}
 
 
 @dataclass(frozen=True)
@@ -206,7 +206,7 @@ def names_given(
         found = [standing_for(pattern, name, there, split) for pattern in patterns]
         dimensions = {dimension for dimension, _ in found}
         if len(dimensions) > 1:
-            what = " and ".join(WHAT[d] for d in sorted(dimensions, reverse=True))
+            what = " and ".join(NAMES_OF_DIMENSION[d] for d in sorted(dimensions, reverse=True))
             raise InputError(f"group {name!r} would join {what}: give each a group of its own")
         taken = result[dimensions.pop()]
         for each in dict.fromkeys(n for _, own in found for n in own):
@@ -244,7 +244,8 @@ def standing_for(
     if asked == (3,) and matching(f"*/{pattern}", ((u.name, u.kind) for u in there[2])):
         hint = f"; '*/{pattern}' stands for faces"
     raise InputError(
-        f"{pattern!r} of group {group!r} stands for none of the {WHAT[asked[0]]}{hint}"
+        f"{pattern!r} of group {group!r} stands for none of the "
+        f"{NAMES_OF_DIMENSION[asked[0]]}{hint}"
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decomp.meshes.model import TetMesh
 from decomp.vectors import Ints
 
-VTK = {0: {1: 1}, 1: {2: 3, 3: 21}, 2: {3: 5, 6: 22}}
+VTK_BY_NODES = {0: {1: 1}, 1: {2: 3, 3: 21}, 2: {3: 5, 6: 22}}
 """VTK's types of elements by dimension and number of nodes."""
 
 
@@ -36,7 +36,7 @@ def lower_blocks(mesh: TetMesh) -> list[Block]:
         (2, mesh.triangles, mesh.triangle_tags),
     )
     return [
-        Block(dimension, VTK[dimension][elements.shape[1]], elements, tags)
+        Block(dimension, VTK_BY_NODES[dimension][elements.shape[1]], elements, tags)
         for dimension, elements, tags in every
         if dimension == 2 or len(elements)
     ]

@@ -19,7 +19,7 @@ from decomp.meshes.group import GroupKind
 
 Side = tuple[str, tuple[str, ...]]
 """A region, empty for none, and faces in it."""
-MOST = 6
+MOST_ORDERED = 6
 """Sides and faces are tried in every order up to so many."""
 
 
@@ -72,10 +72,12 @@ def _is(pattern: Side, side: Side) -> bool:
     (region, wanted), (own, faces) = pattern, side
     if bool(region) != bool(own) or not fnmatchcase(own, region) or len(wanted) != len(faces):
         return False
-    orders: Iterable[Sequence[str]] = permutations(faces) if len(faces) <= MOST else [faces]
+    orders: Iterable[Sequence[str]] = permutations(faces) if len(faces) <= MOST_ORDERED else [faces]
     return any(all(map(fnmatchcase, order, wanted)) for order in orders)
 
 
 def _in_some_order(wanted: Sequence[Side], sides: Sequence[Side]) -> bool:
-    orders: Iterable[Sequence[Side]] = permutations(sides) if len(sides) <= MOST else [sides]
+    orders: Iterable[Sequence[Side]] = (
+        permutations(sides) if len(sides) <= MOST_ORDERED else [sides]
+    )
     return any(all(map(_is, wanted, order)) for order in orders)

@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
-BLOCK = 1 << 16
+TETS_AT_ONCE = 1 << 16
 _ORBITS = (
     (0.31088591926330060980, 0.11268792571801585080),
     (0.092735250310891226402, 0.073493043116361949544),
@@ -46,15 +46,15 @@ FOUR: Array = np.full((4, 4), _NEAR) + np.eye(4) * (1 - 4 * _NEAR)
 def dihedral_angles(points: Array, tets: Ints) -> Array:
     """The six angles (m, 6) between the faces of each tetrahedron, by its corners, in degrees."""
     result = np.empty((len(tets), 6))
-    for start in range(0, len(tets), BLOCK):
-        corner = points[tets[start : start + BLOCK, :4]]
+    for start in range(0, len(tets), TETS_AT_ONCE):
+        corner = points[tets[start : start + TETS_AT_ONCE, :4]]
         for column, (i, j) in enumerate(combinations(range(4), 2)):
             k, other = (n for n in range(4) if n not in (i, j))
             axis = corner[:, j] - corner[:, i]
             one = cross(axis, corner[:, k] - corner[:, i])
             two = cross(axis, corner[:, other] - corner[:, i])
             angle = np.arctan2(norm(cross(one, two)), dot(one, two))
-            result[start : start + BLOCK, column] = np.degrees(angle)
+            result[start : start + TETS_AT_ONCE, column] = np.degrees(angle)
     return result
 
 
@@ -106,10 +106,10 @@ def jacobians(points: Array, tets: Ints, at: Array = FOUR[:1]) -> Array:
     result = np.empty((len(tets), len(at)))
     for column, where in enumerate(at):
         gradient = _gradients(where)
-        for start in range(0, len(tets), BLOCK):
-            rows = tets[start : start + BLOCK]
+        for start in range(0, len(tets), TETS_AT_ONCE):
+            rows = tets[start : start + TETS_AT_ONCE]
             matrix = np.einsum("nk,mnd->mkd", gradient, points[rows])
-            result[start : start + BLOCK, column] = dot(
+            result[start : start + TETS_AT_ONCE, column] = dot(
                 matrix[:, 0], cross(matrix[:, 1], matrix[:, 2])
             )
     return result

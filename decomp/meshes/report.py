@@ -19,7 +19,7 @@ from decomp.shown import Shown
 from decomp.skeletons.model import Method
 from decomp.vectors import Array, Ints
 
-SAME = 0.02
+AS_ASKED = 0.02
 """A mean length that was wanted is told if it is below the one asked for by more than this part."""
 PLURALS = {"vertex": "vertices"}
 
@@ -355,7 +355,7 @@ def edges_text(edges: EdgeLengths) -> str:
     text = f"edges: mean {edges.mean:.4g}, longest {edges.longest:.4g}"
     if edges.asked is None:
         return text
-    less = edges.wanted is not None and edges.wanted < (1 - SAME) * edges.asked
+    less = edges.wanted is not None and edges.wanted < (1 - AS_ASKED) * edges.asked
     return f"{text} (asked {edges.asked:.4g}" + (
         f", {edges.wanted:.4g} in the mean with curvature and thin places)" if less else ")"
     )

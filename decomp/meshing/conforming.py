@@ -23,11 +23,11 @@ from decomp.meshing.repairs.collapsing import collapsed
 from decomp.meshing.repairs.filling import filled
 from decomp.meshing.repairs.flipping import flipped
 from decomp.meshing.repairs.separating import separated
-from decomp.meshing.repairs.shortening import LONGEST, Lengths
+from decomp.meshing.repairs.shortening import LONGEST_EDGE, Lengths
 from decomp.meshing.surface.layout import Layout
 from decomp.vectors import Array, Bools, Ints
 
-ROUNDS = 8
+CONFORMING_ROUNDS = 8
 FLIPS = 3
 """How often tetrahedra with small angles are exchanged and nodes smoothed again."""
 SLIPS = 3
@@ -74,7 +74,7 @@ def conformed(
         asked: lengths; smoothing leaves no edge longer than these allow, but those that are.
         mends: whether tetrahedra are changed at nodes that have no room where they belong.
     """
-    for last in range(ROUNDS - 1, -1, -1):
+    for last in range(CONFORMING_ROUNDS - 1, -1, -1):
         faces = faces_of(tets)
         tagged = tagger.tagged(points, part, faces)
         targets = finder.targets(points, tagged)
@@ -93,7 +93,7 @@ def conformed(
         if mended is None:
             break
         points, tets, part = mended
-    projector.smooth(LONGEST * asked.edges(projector.points, tets, part, tagged).asked)
+    projector.smooth(LONGEST_EDGE * asked.edges(projector.points, tets, part, tagged).asked)
     for _ in range(FLIPS):
         better = flipped(projector.points, tets, part, tagged.triangles)
         if better is None:
@@ -101,7 +101,7 @@ def conformed(
         tets, part = better
         projector = Projector(projector.points, tets, targets, elements, plan.complex.points)
         projector.settle()
-        projector.smooth(LONGEST * asked.edges(projector.points, tets, part, tagged).asked)
+        projector.smooth(LONGEST_EDGE * asked.edges(projector.points, tets, part, tagged).asked)
     for turn in range(SLIPS + 1):
         targets, slipped = renewed(targets, finder.targets(projector.points, tagged))
         if not len(slipped) or turn == SLIPS:

@@ -25,12 +25,12 @@ from decomp.meshing.surface.layout import Layout, layout
 from decomp.meshing.surface.surface import MeshSurface, Surfaces
 from decomp.vectors import Array
 
-CHORD, COARSEST = 0.4, 0.65
-"""How far triangles are made to be off their surfaces, and may be, in parts of the tolerance."""
-CUSP = 2.0
+CHORD, COARSEST_CHORD = 0.4, 0.65
+"""How far triangles are made to be off their surfaces, and may be, in parts of tolerance."""
+CUSP_DEGREES = 2.0
 """Faces that meet at less than this angle (degrees) make a cusp, whose tip no tolerance fits into.
 Only sheets, which end in it, need as small a one as there is."""
-SHORTEST = 7.0
+SHORTEST_EDGES = 7.0
 """The shortest edges are at least so many tolerances long."""
 
 Cells = Literal["skeleton", "face", "none"]
@@ -90,13 +90,13 @@ def prepared(
     check_memory(least_tets(geometry, sizes), float(sizes.max()))
     make = _maker(geometry, cells, sizes, surfaces, tell)
     longest = float(sizes.min())
-    tolerance = usual_tolerance(geometry, longest, CUSP if cells == "none" else 0.0)
+    tolerance = usual_tolerance(geometry, longest, CUSP_DEGREES if cells == "none" else 0.0)
     surface = make(CHORD * tolerance)
     tolerance = fitting_tolerance(geometry, surface, tolerance, longest)
     surface = _fine_enough(surface, tolerance, make)
     tell("sizing", 1.0)
     wish = wishes(geometry, surface, wanted)
-    tolerance = min(tolerance, float(wish.lengths.min()) / SHORTEST)
+    tolerance = min(tolerance, float(wish.lengths.min()) / SHORTEST_EDGES)
     surface = _fine_enough(surface, tolerance, make)
     expected = expected_tets(geometry, wish, sizes)
     check_memory(expected)
@@ -132,6 +132,6 @@ def _fine_enough(
     surface: MeshSurface, tolerance: float, make: Callable[[float], MeshSurface]
 ) -> MeshSurface:
     """The surface, or a finer one if it is too coarse for a tolerance."""
-    if surface.tolerance <= COARSEST * tolerance:
+    if surface.tolerance <= COARSEST_CHORD * tolerance:
         return surface
     return make(CHORD * tolerance)

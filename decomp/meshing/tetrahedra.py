@@ -23,15 +23,16 @@ from decomp.meshing.exact.targets import Finder
 from decomp.meshing.naming.classify import classified, parts_of_cells
 from decomp.meshing.naming.tagging import Tagger
 from decomp.meshing.preparation import Prepared, Progress
-from decomp.meshing.repairs.shortening import LONGEST, shortened, tightened
+from decomp.meshing.repairs.shortening import LONGEST_EDGE, shortened, tightened
 from decomp.meshing.repairs.splitting import freed
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Ints
 
-FAR, AGAIN = 3.0, 0.9
+OFF_FACES, SECOND_TOLERANCE = 3.0, 0.9
 """Nodes farther off their faces than so many tolerances tell that triangles were left out. A mesher
 that does so by chance is tried once more, with this part of the tolerance."""
 
-CUTS = 3
+CUTTING_ROUNDS = 3
 """How often edges that are too long are cut: nodes put in place can draw them out again."""
 
 
@@ -66,7 +67,7 @@ def filled(given: Prepared, mesher: Mesher, limit: TimeLimit, tell: Progress) ->
     best = _run(given, mesher, given.task, limit, tell)
     if len(best.far) and Repair.CHANCE in mesher.repairs:
         tell(f"{mesher.title} again", 0.0)
-        finer = replace(given.task, tolerance=AGAIN * given.task.tolerance)
+        finer = replace(given.task, tolerance=SECOND_TOLERANCE * given.task.tolerance)
         with suppress(MeshingError):  # the first mesh is whole, and tells of its nodes
             again = _run(given, mesher, finer, limit, tell)
             best = min(best, again, key=lambda found: len(found.far))
@@ -82,17 +83,16 @@ def _run(given: Prepared, mesher: Mesher, task: Task, limit: TimeLimit, tell: Pr
     part = _parts(given, raw)
     points, tets = _used(raw.points, raw.tets[part >= 0])
     part = part[part >= 0]
+    followed = Followed(geometry, given.surface, known, plan, given.elements, tolerance)
     if Repair.LAYERS in mesher.repairs:
-        opener = Opener(geometry, given.surface, known, plan, given.elements, tolerance)
-        points, tets, part = opener.opened(points, tets, part)
+        points, tets, part = Opener(followed).opened(points, tets, part)
     points, tets, part = freed(points, tets, part, known.region[known.cell])
     tell("projecting", 0.8)
-    tagger = Tagger(geometry, given.surface, known, plan, tolerance)
-    finder = Finder(geometry, given.surface, known, plan, given.elements, tolerance)
+    tagger, finder = Tagger(followed), Finder(followed)
     tagged = tagger.tagged(points, part, faces_of(tets))
     mends = Repair.DENTS in mesher.repairs
     aimed = given.asked
-    for _ in range(CUTS):
+    for _ in range(CUTTING_ROUNDS):
         points, tets, part = shortened(points, tets, part, tagged, aimed)
         fit = conformed(
             points, tets, part, tagger, finder, plan, given.elements, given.asked, mends
@@ -100,10 +100,10 @@ def _run(given: Prepared, mesher: Mesher, task: Task, limit: TimeLimit, tell: Pr
         points, tets, part, tagged = fit.points, fit.tets, fit.part, fit.tagged
         longest = given.asked.edges(points, tets, part, tagged).excess(points).max()
         tighter = tightened(points, tets, part, tagged, given.asked, aimed)
-        if longest <= LONGEST and tighter is None:
+        if longest <= LONGEST_EDGE and tighter is None:
             break
         aimed = tighter or aimed
-    far = strayed(fit.points, fit.tagged, plan, given.elements, FAR * tolerance)
+    far = strayed(fit.points, fit.tagged, plan, given.elements, OFF_FACES * tolerance)
     return Filled(fit, finder, far)
 
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.complex.model import CurveElement
+from decomp.complex.model import SIDES, CurveElement
 from decomp.vectors import Array, Ints, norm
-
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 class Bisected:

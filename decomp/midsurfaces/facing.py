@@ -24,7 +24,7 @@ from decomp.skeletons.model import Skeleton
 from decomp.vectors import Array, Ints, cross, norm
 from decomp.vectors import number as finite
 
-FACING = 120.0
+FACING_DEGREES = 120.0
 """The least angle between feet, in degrees, by default."""
 
 
@@ -80,7 +80,7 @@ class MidSurface(Shown):
         write(self, path)
 
 
-def mid_surface(skeleton: Skeleton, facing: float = FACING) -> MidSurface:
+def mid_surface(skeleton: Skeleton, facing: float = FACING_DEGREES) -> MidSurface:
     """The parts of a skeleton's sheets whose feet face each other by more than an angle.
 
     Reflexive curves and points (the axis of a rod) are no sheets, and are left out.

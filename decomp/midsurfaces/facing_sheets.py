@@ -19,7 +19,7 @@ from decomp.skeletons.sheets.sheet_family import CLEAR
 from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.vectors import Array, dot, nearest_rows, norm
 
-ASIDE = 2
+SAMPLES_ASIDE = 2
 """So many samples beside the nearest one feet are looked for too."""
 
 
@@ -72,7 +72,7 @@ class MirrorSheet:
         nearest = nearest_rows(samples, points)
         which = np.full(len(points), self.site, dtype=np.int64)
         found, least = np.zeros_like(points), np.full(len(points), np.inf)
-        for step in (0, -ASIDE, ASIDE):
+        for step in (0, -SAMPLES_ASIDE, SAMPLES_ASIDE):
             start = samples[(nearest + step) % len(samples)]
             field = support_fields(table, which, points, start)
             nearer = field.distance < least

@@ -16,19 +16,25 @@ from math import radians
 
 import numpy as np
 
-from decomp.complex.model import CurveElement
+from decomp.complex.model import SIDES, CurveElement
 from decomp.errors import GeometryError
-from decomp.midsurfaces.bisecting import SIDES, Bisected
+from decomp.midsurfaces.bisecting import Bisected
 from decomp.midsurfaces.facing_sheets import FacingSheet
 from decomp.vectors import Array, Bools, Ints, norm
 
 LINEAR = radians(1.0)
 """How far the angle at the middle of an edge may be off the mean of its ends."""
-EQUAL = 1e-7
+EQUAL_ANGLES = 1e-7
 """Angles that differ by less count as equal."""
-INSIDE = 1e-3
+LOOK_INSIDE = 1e-3
 """How far towards a triangle's centre is looked, in parts of the way, where a corner has none."""
-ROUNDS, SEARCHES = 14, 80
+HALVING_ROUNDS, SEARCHES = 14, 80
+AT_CORNER = 1e-6
+"""A crossing nearer to a corner than this part of the tolerance is at it."""
+AT_LEVEL = 1e-12
+"""An angle (radians) so near to the level is on it."""
+NO_MORE_OF_EDGE = 1e-13
+"""Part of an edge below which its crossing is not looked for more closely."""
 
 
 class LevelCut:
@@ -71,14 +77,14 @@ class LevelCut:
         Raises:
             GeometryError: the angle stays far from linear however short the edges are.
         """
-        for _ in range(ROUNDS):
+        for _ in range(HALVING_ROUNDS):
             if not self._halve():
                 break
         else:
             raise GeometryError(
                 f"sheets cannot be cut where their feet face each other by "
-                f"{np.degrees(self._level):g} degrees: edges were halved {ROUNDS} times and the "
-                "angle still changes unevenly along them; ask for a little more or less"
+                f"{np.degrees(self._level):g} degrees: edges were halved {HALVING_ROUNDS} times "
+                "and the angle still changes unevenly along them; ask for a little more or less"
             )
         while self._cut():
             pass
@@ -89,9 +95,9 @@ class LevelCut:
         mesh = self.mesh
         value = mesh.value - self._level
         middle = mesh.points[mesh.triangles].mean(axis=1)
-        even = (np.abs(value) <= EQUAL).all(axis=1)
+        even = (np.abs(value) <= EQUAL_ANGLES).all(axis=1)
         value[even] = self._facing(mesh.owner[even], middle[even])[0][:, None] - self._level
-        return np.asarray((value > EQUAL).any(axis=1))
+        return np.asarray((value > EQUAL_ANGLES).any(axis=1))
 
     def _halve(self) -> int:
         """Cut at their middles edges along which angle or radius is far from linear; how many."""
@@ -125,7 +131,9 @@ class LevelCut:
         start = mesh.triangles[t, SIDES[k, 0]] == edges[side, 0]
         ends = np.stack([mesh.value[t, SIDES[k, j]] for j in (0, 1)], axis=1) - self._level
         ends = np.where(start[:, None], ends, ends[:, ::-1])
-        crossing = np.flatnonzero((ends.min(axis=1) < -EQUAL) & (ends.max(axis=1) > EQUAL))
+        crossing = np.flatnonzero(
+            (ends.min(axis=1) < -EQUAL_ANGLES) & (ends.max(axis=1) > EQUAL_ANGLES)
+        )
         # a point lies on the levels of several sheets at different places: one sheet at a time
         _, first = np.unique(side[crossing], return_index=True)
         rows = crossing[first]
@@ -133,7 +141,7 @@ class LevelCut:
             return 0
         along, points = self._crossings(edges[side[rows]], owner[rows], ends[rows])
         gap = norm(points[:, None] - mesh.points[edges[side[rows]]]).min(axis=1)
-        near = gap <= 1e-6 * self._tolerance
+        near = gap <= AT_CORNER * self._tolerance
         for row, share in zip(rows[near], along[near], strict=True):
             # the crossing is at a corner, which counts as on the level from now on
             corner = edges[side[row], int(share > 0.5)]
@@ -178,7 +186,7 @@ class LevelCut:
             at_high = np.where(same, at_high / (2 if turn % 3 else 1), value)
             at_low = np.where(same, value, at_low / (2 if turn % 3 else 1))
             low, high = np.where(same, along, low), np.where(same, high, along)
-            left = left[(np.abs(value[left]) > 1e-12) & ((high - low)[left] > 1e-13)]
+            left = left[(np.abs(value[left]) > AT_LEVEL) & ((high - low)[left] > NO_MORE_OF_EDGE)]
             if not len(left):
                 break
         return along, points
@@ -225,7 +233,7 @@ class LevelCut:
         value = self._facing(owner[first], points[first])[0]
         lost = np.flatnonzero(np.isnan(value)[place_of])
         if len(lost):
-            inside = points[lost] + INSIDE * (centre[lost] - points[lost])
+            inside = points[lost] + LOOK_INSIDE * (centre[lost] - points[lost])
             for sheet in np.unique(owner[lost]):
                 rows = owner[lost] == sheet
                 inside[rows] = self._surfaces[sheet].place(inside[rows])

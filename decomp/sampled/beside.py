@@ -12,23 +12,21 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.attempts import stage
-from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.complex.model import Complex
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.interior import Interior
 from decomp.skeletons.assembly import RegionAssembler, RegionParts
 from decomp.skeletons.curves.region_curves import RegionCurves
-from decomp.skeletons.model import TrimSurface
-from decomp.skeletons.sheets.drawn_sheets import CrossingError
+from decomp.skeletons.joining import Joined, fine_enough_to_part
 from decomp.skeletons.sheets.trim_maker import BoundaryVertices
 from decomp.skeletons.traced_region import TracedRegion
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, norm
 
-ON = 1e-9
+ON_PIECE = 1e-9
 """Nodes nearer to a vertex, or a piece of an edge, than this part of the diagonal are on it."""
-FINER, LEVELS = 4.0, 5
-"""How much more finely, and how often, curves are sampled where they cross."""
 
 
 class TetrahedraBoundary:
@@ -42,7 +40,7 @@ class TetrahedraBoundary:
 
     def __init__(self, geometry: Geometry, given: Interior, mesh: Bisected) -> None:
         self._geometry, self._given, self._mesh = geometry, given, mesh
-        self._slack = ON * geometry.diagonal
+        self._slack = ON_PIECE * geometry.diagonal
 
     def put_nodes(self, places: list[Array]) -> None:
         """Have nodes at places (3,) on edges; tetrahedra there are cut."""
@@ -103,7 +101,7 @@ class TetrahedraBoundary:
         t = np.asarray(piece.curve.parameter(mesh.points[nodes]))
         near = norm(piece.curve.point(t) - mesh.points[nodes]) <= self._slack
         nodes, t = nodes[near], t[near]
-        reach = self._slack / max(_speed(piece.curve, piece.start), 1e-300)
+        reach = self._slack / max(_speed(piece.curve, piece.start), TINY)
         if piece.curve.closed:
             t = piece.start + np.mod(t - piece.start + reach, piece.curve.period) - reach
         within = (t >= piece.start - reach) & (t <= piece.end + reach)
@@ -151,7 +149,7 @@ def with_traced(
     used = np.unique(mesh.triangles)
     numbers: Ints = np.full(len(mesh.points), -1, dtype=np.int64)
     numbers[used] = np.arange(len(used))
-    points, patches, lines = drawn.points, list(drawn.patches), list(drawn.lines)
+    points, joined = drawn.points, Joined(drawn.patches, drawn.lines, with_trims)
     found = {}
     for number, own in curves.items():
         region = geometry.regions[number]
@@ -159,22 +157,12 @@ def with_traced(
             at = boundary.of_region(number, numbers, points)
             parts = _parts(geometry, own, at, points, along)
         points = np.concatenate([points, parts.points])
-        sheets = tuple(range(len(patches), len(patches) + len(parts.sheets)))
-        patches += [Patch(PatchKind.SHEET, s.surface, s.triangles) for s in parts.sheets]
-        part_lines = tuple(range(len(lines), len(lines) + len(parts.lines)))
-        lines += parts.lines
-        trims = []
-        for trim, patch in parts.trims:
-            trims.append(TrimSurface(len(patches) if with_trims else -1, trim.faces))
-            if with_trims:
-                patches.append(patch)
-        if with_trims:
-            lines += parts.rulings
+        where = joined.add(parts)
         face_sides = given.surface.face_sides(number, len(region.faces))
         found[number] = TracedRegion(
-            number, own, parts, sheets, tuple(trims), part_lines, face_sides
+            number, own, parts, where.sheets, where.trims, where.lines, face_sides
         )
-    made = replace(drawn, points=points, patches=tuple(patches), lines=tuple(lines))
+    made = replace(drawn, points=points, patches=tuple(joined.patches), lines=tuple(joined.lines))
     return made, found
 
 
@@ -182,14 +170,11 @@ def _parts(
     geometry: Geometry, curves: RegionCurves, at: BoundaryVertices, before: Array, along: float
 ) -> RegionParts:
     """A region's part, sampled more finely where its curves cross."""
-    for level in range(LEVELS - 1):
-        try:
-            own = along / FINER**level, 2**level, False
-            return RegionAssembler(curves, at, before, *own).assemble()
-        except CrossingError:
-            continue
-    own = along / FINER ** (LEVELS - 1), 2 ** (LEVELS - 1), True
-    return RegionAssembler(curves, at, before, *own).assemble()
+    return fine_enough_to_part(
+        lambda finer, chords, finest: RegionAssembler(
+            curves, at, before, along / finer, chords, finest
+        ).assemble()
+    )
 
 
 def _speed(curve: object, t: float) -> float:

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from decomp.complex.model import SIDES
 from decomp.errors import GeometryError
 from decomp.sampled.interior import Interior
 from decomp.vectors import Array, Bools, Ints, norm
 
-EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
-ROUNDS = 200
+TET_EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
+BISECTING_ROUNDS = 200
 
 
 class Bisected:
@@ -35,7 +35,9 @@ class Bisected:
 
     def edges(self) -> tuple[Ints, Ints]:
         """The distinct edges (e, 2), lower node first, and those of each tetrahedron (m, 6)."""
-        keys, which = np.unique(self._keys(self.tets[:, EDGES]).reshape(-1), return_inverse=True)
+        keys, which = np.unique(
+            self._keys(self.tets[:, TET_EDGES]).reshape(-1), return_inverse=True
+        )
         low, high = np.divmod(keys, len(self.points))
         return np.stack([low, high], axis=1), which.reshape(-1, 6)
 
@@ -65,7 +67,7 @@ class Bisected:
         Those that neighbours make necessary are halved too.
         """
         left = np.array(wanted)
-        for _ in range(ROUNDS):
+        for _ in range(BISECTING_ROUNDS):
             if not left.any():
                 return
             edges, which = self.edges()

@@ -10,7 +10,7 @@ from decomp.sampled.normals import LOOSE, TIGHT
 from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints
 
-NOWHERE = 1e-6
+NO_RADIUS = 1e-6
 """Vertices with less than this part of the largest radius are on the boundary: none tells."""
 
 
@@ -68,7 +68,7 @@ def _direct(
 ) -> Bools:
     """Which triangles (t, 3) lie on normals at which one of their own sites takes over."""
     result = np.zeros(len(triangles), dtype=np.bool_)
-    least = NOWHERE * float(np.abs(radius).max(initial=0.0))
+    least = NO_RADIUS * float(np.abs(radius).max(initial=0.0))
     pairs, which = np.unique(between, axis=0, return_inverse=True)
     for number, (a, b) in enumerate(pairs.tolist()):
         if not placer.normals.takes_over(a, b):

@@ -19,7 +19,7 @@ import numpy as np
 from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-FLAT = 0.15
+FLAT_WALL = 0.15
 """Walls whose triangles are no higher than this part of their longest sides can be contracted."""
 
 
@@ -33,7 +33,7 @@ def thin(points: Array, sites: list[tuple[int, ...]], triangles: Ints, placer: P
     corners = points[triangles]
     sides = norm(corners - np.roll(corners, 1, axis=1))
     double = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-    low = double <= FLAT * sides.max(axis=1) ** 2
+    low = double <= FLAT_WALL * sides.max(axis=1) ** 2
     result = np.zeros(len(triangles), dtype=np.bool_)
     for row in np.flatnonzero(low).tolist():
         a, b, c = (set(sites[v]) for v in triangles[row].tolist())

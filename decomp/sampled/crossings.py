@@ -9,7 +9,7 @@ import numpy as np
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.vectors import Array, Ints
 
-HALVINGS = 12
+CHANGE_HALVINGS = 12
 """How often the place of a change is halved."""
 DIRECT = 2.0
 """Changes closer than so many of the least steps are one."""
@@ -41,7 +41,7 @@ def crossings(queries: RegionQueries, ends: Array, labels: Ints) -> Crossings:
     for column in range(2):
         # the end of the run of this label that begins at its end
         inner, outer = np.full(len(ends), float(column)), np.full(len(ends), 1.0 - column)
-        for _ in range(HALVINGS):
+        for _ in range(CHANGE_HALVINGS):
             middle = (inner + outer) / 2
             site = queries.nearest(start + middle[:, None] * way).site
             same = site == labels[:, column]
@@ -51,5 +51,5 @@ def crossings(queries: RegionQueries, ends: Array, labels: Ints) -> Crossings:
     middle = (low + high) / 2
     points = start + middle[:, None] * way
     site = np.asarray(queries.nearest(points).site, dtype=np.int64)
-    between = (high - low > DIRECT / 2**HALVINGS) & (site[:, None] != labels).all(axis=1)
+    between = (high - low > DIRECT / 2**CHANGE_HALVINGS) & (site[:, None] != labels).all(axis=1)
     return Crossings(points, np.where(between, site, -1))

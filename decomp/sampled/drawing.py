@@ -12,7 +12,7 @@ from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contracting import thin
-from decomp.sampled.extracted import CLOSE, ONE, Extracted, contracted
+from decomp.sampled.extracted import CLOSE_VERTICES, ONE_VERTEX, Extracted, contracted
 from decomp.sampled.interior import Interior
 from decomp.sampled.loci import pinned_ends
 from decomp.sampled.smoothing import unfolded
@@ -21,7 +21,7 @@ from decomp.vectors import Array, Ints
 
 UNFOLDINGS = 4
 """So often walls are smoothed, and what is still folded then is contracted."""
-FOLDS = 0.01
+MOST_FOLDED = 0.01
 """If more than this part of the triangles stays folded refining them is of no use."""
 
 
@@ -65,15 +65,19 @@ def smoothly_drawn(
             corners = np.sort(vertices[found.triangles], axis=1).tolist()
             wanted = np.array([tuple(row) in bad for row in corners], dtype=np.bool_)
             wanted |= thin(moved.points, moved.sites, moved.triangles, tool.placer)
-            least = ONE * geometry.diagonal
+            least = ONE_VERTEX * geometry.diagonal
             fewer.append(
                 contracted(
-                    moved, wanted, moved.short_edges(CLOSE * geometry.diagonal), least, tool.placer
+                    moved,
+                    wanted,
+                    moved.short_edges(CLOSE_VERTICES * geometry.diagonal),
+                    least,
+                    tool.placer,
                 )
             )
         extracted = fewer
         near = smooth.points[np.unique(folded)]
-    if len(folded) > FOLDS * sum(len(found.triangles) for found in extracted):
+    if len(folded) > MOST_FOLDED * sum(len(found.triangles) for found in extracted):
         at = smooth.points[folded[0]].mean(axis=0)
         raise GeometryError(f"{len(folded)} triangles of walls stay folded, one at {{at}}", at=at)
     return replace(shown, complex=smooth)

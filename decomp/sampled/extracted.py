@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.complex.model import SIDES
 from decomp.sampled.contracting import Contractor, Holds
 from decomp.sampled.placing import Placer
 from decomp.vectors import Array, Bools, Ints, norm
 
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
-CLOSE = 2e-6
+CLOSE_VERTICES = 2e-6
 """Vertices closer than this part of the size become one if all walls allow it: where a site is
 touched to second order a junction is known no better."""
-ONE = 1e-10
+ONE_VERTEX = 1e-10
 """Vertices closer than this part of the size are one."""
 
 

@@ -13,23 +13,22 @@ from itertools import combinations
 
 import numpy as np
 
+from decomp.complex.model import SIDES
 from decomp.sampled.bisecting import Bisected
 from decomp.sampled.contacts import links
 from decomp.sampled.contracting import thin
 from decomp.sampled.crossings import crossings
-from decomp.sampled.extracted import CLOSE, ONE, SIDES, Extracted, contracted
+from decomp.sampled.extracted import CLOSE_VERTICES, ONE_VERTEX, Extracted, contracted
 from decomp.sampled.labels import Labels
 from decomp.sampled.marching import Walls, walls
 from decomp.sampled.normals import LOOSE
-from decomp.sampled.placing import Placer
+from decomp.sampled.placing import SITE_NEARER, Placer
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.vectors import Array, Bools, Ints, norm
 
-NEARER = 1e-10
-"""A site that is nearer, or takes over from another, by this part of the size joins in."""
-MOST = 10
+MOST_SITES = 10
 """So many sites at most are as near to one vertex."""
-FAR = 2.0
+FARTHEST_MOVE = 2.0
 """A vertex is moved no farther than so many of the longest edges around it."""
 
 
@@ -99,7 +98,7 @@ class Extractor:
         edges = np.unique(sides, axis=0)
         edges = edges[~lost[edges].any(axis=1)]
         length = norm(points[edges[:, 0]] - points[edges[:, 1]])
-        same = length <= CLOSE * self._size
+        same = length <= CLOSE_VERTICES * self._size
         done = np.array(~raised)
         for row in np.argsort(length, kind="stable").tolist():
             a, b = edges[row].tolist()
@@ -154,28 +153,30 @@ class Extractor:
         """Place vertices exactly; sites that are nearer join in."""
         start = np.array(points)
         left = free
-        for _ in range(MOST):
+        for _ in range(MOST_SITES):
             groups: dict[tuple[int, ...], list[int]] = {}
             for vertex in left.tolist():
                 groups.setdefault(self._active(sites[vertex], start[vertex]), []).append(vertex)
             for own, members in groups.items():
                 rows = np.array(members, dtype=np.int64)
                 placed = self._placer.place(own, start[rows])
-                good = placed.good & (norm(placed.points - start[rows]) <= FAR * reach[rows])
+                good = placed.good & (
+                    norm(placed.points - start[rows]) <= FARTHEST_MOVE * reach[rows]
+                )
                 points[rows] = np.where(good[:, None], placed.points, start[rows])
                 radius[rows] = placed.radius
                 lost[rows] = ~good
             again = []
             found = self._queries.nearest(points[left])
             gap = np.abs(radius[left] - found.distance)
-            for row in np.flatnonzero(gap > NEARER * self._size).tolist():
+            for row in np.flatnonzero(gap > SITE_NEARER * self._size).tolist():
                 vertex, nearer = int(left[row]), int(found.site[row])
                 if self._flat(sites[vertex], points[vertex]):
                     continue
                 if nearer < 0:
                     # outside, beside a hollow face: the edge between two sites is nearest
                     nearer = self._placer.between(sites[vertex], points[vertex])
-                crowded = len(sites[vertex]) >= MOST
+                crowded = len(sites[vertex]) >= MOST_SITES
                 if nearer < 0 or lost[vertex] or nearer in sites[vertex] or crowded:
                     lost[vertex] = True
                 else:
@@ -253,4 +254,4 @@ class Extractor:
             passed,
             passing,
         )
-        return contracted(whole, narrow, short, ONE * self._size, self._placer)
+        return contracted(whole, narrow, short, ONE_VERTEX * self._size, self._placer)

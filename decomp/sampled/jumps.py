@@ -13,7 +13,7 @@ from decomp.skeletons.model import RegionSkeleton
 from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.vectors import Array
 
-LEAST = 1e-3
+LEAST_JUMP = 1e-3
 """Radians between the directions to both feet, at the least, inside a sheet."""
 
 
@@ -45,7 +45,7 @@ def without_jump(
         if not len(inside):
             points = surface.place(mesh.points[patch.triangles].mean(axis=1))
         angle, _ = surface.facing(points)
-        one = np.flatnonzero(angle < LEAST)  # nan where a point has many feet on one site
+        one = np.flatnonzero(angle < LEAST_JUMP)  # nan where a point has many feet on one site
         if len(one):
             names = " and ".join(sites[k].name for k in sheet.sites)
             found.append(f"no jump across the sheet of {names} at {place(points[one[0]])}")

@@ -16,7 +16,7 @@ from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.vectors import Array, Bools, Ints, norm
 
-ON = 1e-8
+NODE_ON_EDGE = 1e-8
 """Nodes nearer to an edge or vertex than this part of the region's diagonal are on it."""
 
 
@@ -51,7 +51,7 @@ class Labeller:
     def __init__(self, queries: RegionQueries, incidence: Incidence, face_of_patch: Ints) -> None:
         self._queries, self._incidence = queries, incidence
         self._face_of_patch = face_of_patch
-        self._slack = ON * incidence.boundary.diagonal
+        self._slack = NODE_ON_EDGE * incidence.boundary.diagonal
 
     def labels(self, mesh: Bisected, known: Labels | None) -> Labels:
         """The labels of all nodes; those of the first that are known are kept."""

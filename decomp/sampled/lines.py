@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from decomp.complex.model import SIDES
 from decomp.vectors import Ints
-
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 @dataclass(frozen=True)

@@ -14,19 +14,20 @@ from itertools import pairwise
 import numpy as np
 from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
-from decomp.sampled.extracted import SIDES, Extracted
+from decomp.complex.model import SIDES
+from decomp.sampled.extracted import Extracted
 from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.reflexive import ReflexivePart
 from decomp.vectors import Array, Ints, norm
 
-SAME = 1e-9
+ONE_POINT = 1e-9
 """Points closer than this part of the size are one."""
 TIED = 1e-9
 """Sites are as near to the end of a locus to this part of the size."""
-REACH = 3.0
+END_REACH = 3.0
 """A vertex is moved to the end of a locus over no more than so many of the edges there."""
-MOST = 2000
+MOST_PIECES = 2000
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,10 +67,10 @@ def pinned_ends(
             if part.dimension and other < 0:
                 continue
             away = norm(points - end)
-            here = np.flatnonzero(on_sheet & (away <= SAME * size))
+            here = np.flatnonzero(on_sheet & (away <= ONE_POINT * size))
             if not len(here):
                 near = np.flatnonzero(
-                    on_sheet & (walls.node < 0) & ~pinned & (away <= REACH * longest)
+                    on_sheet & (walls.node < 0) & ~pinned & (away <= END_REACH * longest)
                 )
                 asked = {walls.sites[v] for v in near.tolist()}
                 tied = {own: _tied(incidence, own, end) for own in asked}
@@ -80,7 +81,7 @@ def pinned_ends(
                 points[here[0]] = end
                 radius[here[0]] = _distance(incidence, part.sites[0], end)
             pinned[here] = True
-            for vertex in _others(incidence, walls, int(here[0]), end, REACH * longest):
+            for vertex in _others(incidence, walls, int(here[0]), end, END_REACH * longest):
                 if not pinned[vertex] and walls.node[vertex] < 0:
                     become[vertex], sites[here[0]] = here[0], _united(sites, here[0], vertex)
     triangles = become[walls.triangles]
@@ -165,7 +166,7 @@ def runs(
     for part in parts:
         if not part.dimension:
             at = tree.query(part.ends[0])[0] if tree is not None else np.inf
-            if at > SAME * size:
+            if at > ONE_POINT * size:
                 found.append(Run(part, part.ends[:1], np.array([-1]), False))
             continue
         found += _pieces(part, points, candidates, edges, size, spacing)
@@ -185,9 +186,9 @@ def _pieces(
     u = np.asarray(locus.parameter(points[candidates]))
     if locus.closed:
         period = locus.span[1] - locus.span[0]
-        u = part.start + np.mod(u - part.start + SAME * size, period) - SAME * size
-    within = (u >= part.start - SAME * size) & (u <= part.end + SAME * size)
-    within &= norm(locus.point(u) - points[candidates]) <= SAME * size
+        u = part.start + np.mod(u - part.start + ONE_POINT * size, period) - ONE_POINT * size
+    within = (u >= part.start - ONE_POINT * size) & (u <= part.end + ONE_POINT * size)
+    within &= norm(locus.point(u) - points[candidates]) <= ONE_POINT * size
     rows = np.flatnonzero(within)
     rows = rows[np.argsort(u[rows], kind="stable")]
     stops = [(float(u[k]), int(candidates[k])) for k in rows.tolist()]
@@ -196,9 +197,9 @@ def _pieces(
             return [_run(part, part.start, part.end, -1, -1, spacing, True)]
         stops.append((stops[0][0] + part.end - part.start, stops[0][1]))
     else:
-        if not stops or stops[0][0] > part.start + SAME * size:
+        if not stops or stops[0][0] > part.start + ONE_POINT * size:
             stops.insert(0, (part.start, -1))
-        if stops[-1][0] < part.end - SAME * size:
+        if stops[-1][0] < part.end - ONE_POINT * size:
             stops.append((part.end, -1))
     found = []
     for (a, v), (b, w) in pairwise(stops):
@@ -211,7 +212,7 @@ def _run(
     part: ReflexivePart, a: float, b: float, v: int, w: int, spacing: float, closed: bool
 ) -> Run:
     assert part.locus is not None
-    count = int(np.clip(np.ceil((b - a) / spacing), 4 if closed else 1, MOST))
+    count = int(np.clip(np.ceil((b - a) / spacing), 4 if closed else 1, MOST_PIECES))
     points = part.locus.point(np.linspace(a, b, count + 1))
     vertices: Ints = np.full(count + 1, -1, dtype=np.int64)
     vertices[0], vertices[-1] = v, w
@@ -233,7 +234,9 @@ def welded(found: Sequence[Run], size: float, first: int) -> tuple[Array, list[I
                 chain[k] = chain[0]
                 continue
             end = k in (0, len(chain) - 1)
-            same = [i for i, p in enumerate(new) if end and norm(p - run.points[k]) <= SAME * size]
+            same = [
+                i for i, p in enumerate(new) if end and norm(p - run.points[k]) <= ONE_POINT * size
+            ]
             if not same:
                 same = [len(new)]
                 new.append(run.points[k])

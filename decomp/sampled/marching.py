@@ -13,7 +13,7 @@ import numpy as np
 
 from decomp.vectors import Array, Ints
 
-CORNERS = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+TETRAHEDRON = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
 """A positively oriented tetrahedron, from which the tables' orientations are taken."""
 
 Vertex = tuple[int, ...]
@@ -55,8 +55,8 @@ def _oriented(table: Table) -> Table:
     """A table whose triangles face the second label."""
     result = []
     for (i, j), triangle in table:
-        a, b, c = (CORNERS[list(vertex)].mean(axis=0) for vertex in triangle)
-        ahead = float(np.cross(b - a, c - a) @ (CORNERS[j] - CORNERS[i])) > 0
+        a, b, c = (TETRAHEDRON[list(vertex)].mean(axis=0) for vertex in triangle)
+        ahead = float(np.cross(b - a, c - a) @ (TETRAHEDRON[j] - TETRAHEDRON[i])) > 0
         result.append(((i, j), triangle if ahead else triangle[::-1]))
     return result
 

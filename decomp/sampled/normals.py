@@ -17,15 +17,15 @@ from decomp.sites.site import SiteKind, faces_at
 from decomp.skeletons.balls.fields import edge_foot
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.incidence import Incidence
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
-DELTA = 1e-7
+GRADIENT_DELTA = 1e-7
 """Gradients of planes of normals are differences over this part of the size."""
 LOOSE, TIGHT = 0.2, 1e-5
 """Radians by which the way to a point may be off the normals: before it is placed, and then."""
-BESIDE = (1e-2, 1e-3, 1e-4, 1e-5)
+BESIDE_SMOOTH = (1e-2, 1e-3, 1e-4, 1e-5)
 """So far beside a smooth edge, in parts of the size, it is asked which face is there."""
-NONE = 1e-300
 
 
 class Normals:
@@ -164,7 +164,7 @@ class Normals:
             foot, across = self._shared(a, b, at)
             return np.asarray(dot(at - foot, across))
 
-        h = DELTA * self._size
+        h = GRADIENT_DELTA * self._size
         steps = [value(points + h * way) - value(points - h * way) for way in np.eye(3)]
         return [(value(points), np.stack(steps, axis=1) / (2 * h))]
 
@@ -231,7 +231,7 @@ class Normals:
             at = curve.point(np.array([(middle.start + middle.end) / 2]))
             normal = it.inward(middle.faces[0], at)
             way = _unit(cross(_unit(curve.derivative(curve.parameter(at))), normal))
-            sides = np.array(BESIDE)[:, None] * self._size
+            sides = np.array(BESIDE_SMOOTH)[:, None] * self._size
             asked = np.concatenate([at + sides * (normal + s * way) for s in (1.0, -1.0)])
             ahead, behind = np.split(self._queries.nearest(asked).site == later, 2)
             self._senses[edge] = 1.0 if ahead.sum() >= behind.sum() else -1.0
@@ -248,7 +248,7 @@ class Normals:
 
 
 def _unit(vectors: Array) -> Array:
-    return np.asarray(vectors / np.maximum(norm(vectors), NONE)[..., None])
+    return np.asarray(vectors / np.maximum(norm(vectors), TINY)[..., None])
 
 
 def _plane(x: Array, at: Array, normal: Array) -> tuple[Array, Array]:

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
-from decomp.complex.model import Patch, PatchKind
+from decomp.complex.model import SIDES, Patch, PatchKind
 from decomp.errors import GeometryError
 from decomp.sampled.elements import NormalsSurface
 from decomp.sampled.extracted import Extracted
@@ -21,8 +21,6 @@ from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.model import TrimSurface
 from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.vectors import Array, Ints
-
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 @dataclass(frozen=True, eq=False)

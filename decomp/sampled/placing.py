@@ -18,24 +18,25 @@ from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.balls.loci import on_locus
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.incidence import Incidence
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, norm
 
-STEPS = 30
-EXACT = 2e-14
+PLACING_STEPS = 30
+PLACED_EXACTLY = 2e-14
 """Newton's method ends when all constraints hold to this part of the size."""
-GOOD = 2e-13
+PLACED_WELL = 2e-13
 """Points at which they hold to this part of the size are placed."""
-RANK = 1e-7
+GRADIENT_RANK = 1e-7
 """Gradients that differ by less than this are equal."""
-NEARER = 1e-10
-"""A site that is nearer by this part of the size is nearer."""
+SITE_NEARER = 1e-10
+"""A site that is nearer, or takes over from another, by this part of the size is nearer."""
 CHANGES = 3
 """So often it is asked which sites take over from one another."""
-NOWHERE = 1e-9
+AT_BOUNDARY = 1e-9
 """Points nearer to the boundary than this part of the size are on it."""
-APART = 0.1
+OFF_AXIS = 0.1
 """A point nearer to a face's axis than this part of the radius has no foot of its own on it."""
-FAR = 0.5
+FEET_APART = 0.5
 """Feet farther apart than this part of the radius are two, though a normal at each leads there."""
 
 
@@ -115,7 +116,7 @@ class Placer:
             return [group]
         own = [sites[i] for i in group]
         feet = self._it.feet(own, point[None])[0]
-        free = [on_locus(self._it.context, [s], point[None], APART)[0] for s in own]
+        free = [on_locus(self._it.context, [s], point[None], OFF_AXIS)[0] for s in own]
         radius = float(norm(feet - point).min())
         result: list[list[int]] = []
         for column, foot, loose in zip(group, feet, free, strict=True):
@@ -123,7 +124,7 @@ class Placer:
                 continue
             for other in result:
                 at = feet[group.index(other[0])]
-                if float(norm(foot - at)) <= FAR * radius:
+                if float(norm(foot - at)) <= FEET_APART * radius:
                     other.append(column)
                     break
             else:
@@ -160,9 +161,9 @@ class Placer:
             feet = self._it.feet([site], point[None])[:, 0]
             distance = float(self._field(site, point[None], feet)[0][0])
             off = max(off, abs(distance - radius))
-        if off > GOOD * self._size:
+        if off > PLACED_WELL * self._size:
             return False
-        flat = radius <= NOWHERE * self._size
+        flat = radius <= AT_BOUNDARY * self._size
         if sheet or flat:
             return True
         on = self.normals.takes_over(*pair)
@@ -175,7 +176,7 @@ class Placer:
             placed = self.place(own, point[None])
             if placed.good[0] and float(norm(placed.points[0] - point)) <= reach:
                 away = float(self._queries.nearest(placed.points).distance[0])
-                if abs(away - float(placed.radius[0])) <= NEARER * self._size:
+                if abs(away - float(placed.radius[0])) <= SITE_NEARER * self._size:
                     found.append(placed.points[0])
         return np.array(found).reshape(-1, 3)
 
@@ -189,24 +190,24 @@ class Placer:
         x = np.array(points)
         feet = self._it.feet(sites, x)
         best, worst = np.array(x), np.full(len(x), np.inf)
-        for _ in range(STEPS):
+        for _ in range(PLACING_STEPS):
             value, slope = self._constraints(sites, links, x, feet)
             off = np.abs(value).max(axis=1)
             off[~np.isfinite(off)] = np.inf
             better = off < worst
             best[better], worst[better] = x[better], off[better]
-            if (worst <= EXACT * self._size).all():
+            if (worst <= PLACED_EXACTLY * self._size).all():
                 break
             finite = np.isfinite(value).all(axis=1) & np.isfinite(slope).all(axis=(1, 2))
             step = np.zeros_like(x)
-            inverse = np.linalg.pinv(slope[finite], rcond=RANK)
+            inverse = np.linalg.pinv(slope[finite], rcond=GRADIENT_RANK)
             step[finite] = -np.einsum("kij,kj->ki", inverse, value[finite])
             length = norm(step)
             most = 0.25 * self._size
-            step *= np.minimum(1.0, most / np.maximum(length, 1e-300))[:, None]
+            step *= np.minimum(1.0, most / np.maximum(length, TINY))[:, None]
             x = x + step
         radius = self._field(sites[0], best, feet[:, 0])[0]
-        return Placed(best, radius, worst <= GOOD * self._size)
+        return Placed(best, radius, worst <= PLACED_WELL * self._size)
 
     def names(self, sites: tuple[int, ...]) -> list[str]:
         """What sites are called in messages."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.sampled.bisecting import EDGES, Bisected
+from decomp.sampled.bisecting import TET_EDGES, Bisected
 from decomp.sampled.crossings import crossings
 from decomp.sampled.labels import Labeller, Labels
 from decomp.sampled.placing import Placer
@@ -24,7 +24,7 @@ OF_RADIUS = 0.7
 """Edges at walls are no longer than this part of the radius."""
 ODD = 0.5
 """Edges past a third site are made no shorter than this part of the floor."""
-ROUNDS = 60
+REFINING_ROUNDS = 60
 PINCHES = 12
 
 
@@ -51,14 +51,14 @@ class Refiner:
             floor: a length.
             chord: how far chords may be off the edges of the boundary.
         """
-        for _ in range(ROUNDS):
+        for _ in range(REFINING_ROUNDS):
             edges, which = mesh.edges()
             bent = mesh.sagitta(edges) > chord
             if not bent.any():
                 break
             mesh.halve(edges, which, bent)
         labels = self._labeller.labels(mesh, labels)
-        for _ in range(ROUNDS):
+        for _ in range(REFINING_ROUNDS):
             wide = self._too_wide(mesh, labels, floor)
             if wide.any():
                 mesh.shorten(wide)
@@ -75,7 +75,7 @@ class Refiner:
         at = labels.site[mesh.tets]
         mixed = (at != at[:, :1]).any(axis=1) & (mesh.region == self._region)
         corners = mesh.points[mesh.tets]
-        longest = norm(corners[:, EDGES[:, 0]] - corners[:, EDGES[:, 1]]).max(axis=1)
+        longest = norm(corners[:, TET_EDGES[:, 0]] - corners[:, TET_EDGES[:, 1]]).max(axis=1)
         radius = labels.distance[mesh.tets].max(axis=1)
         return np.asarray(mixed & (longest > np.maximum(OF_RADIUS * radius, floor)))
 

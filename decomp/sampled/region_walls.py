@@ -14,7 +14,7 @@ from scipy.spatial.distance import pdist  # type: ignore[import-untyped]
 
 from decomp.errors import GeometryError
 from decomp.geometry import Geometry
-from decomp.sampled.bisecting import EDGES, Bisected
+from decomp.sampled.bisecting import TET_EDGES, Bisected
 from decomp.sampled.extracted import Extracted
 from decomp.sampled.extraction import Extractor
 from decomp.sampled.interior import Interior
@@ -24,24 +24,24 @@ from decomp.sampled.whole import RegionTools
 from decomp.skeletons.balls.queries import region_queries
 from decomp.vectors import Array, Ints, norm
 
-AGAIN, PATIENCE = 8, 3
+REFINED_AGAIN, WITHOUT_PROGRESS = 8, 3
 """So often tetrahedra are refined around walls that cannot be placed, and so often though there are
 no fewer then,"""
-FINEST = 0.002
+FINEST_FLOOR = 0.002
 """to this part of the floor at the most."""
-CROWDED = 40_000
+MOST_TETRAHEDRA = 40_000
 """Tetrahedra at most: more would take longer than they are worth."""
 SHORTER = 0.6
 """Their edges become no longer than this part of what they were,"""
-FINER = 0.5
+OF_APART = 0.5
 """and than this part of how far what meets there is apart,"""
-APART = 1e-3
+LEAST_APART = 1e-3
 """unless that is less than this part of them;"""
-MOST = 0.15
+LEAST_AT_ONCE = 0.15
 """nor less than this part of what they were at once;"""
-REACH = 0.3
+REFINED_REACH = 0.3
 """those around them are refined if they are nearer than this part of their own edges,"""
-HALVINGS = 40
+WALL_HALVINGS = 40
 """and all are halved so often at the most."""
 
 
@@ -81,14 +81,15 @@ def region_walls(
         known.append(labeller.labels(mesh, None))
     found = [Extracted.none()] * len(tools)
     fewest, since = len(mesh.points), 0
-    for left in reversed(range(AGAIN)):
+    for left in reversed(range(REFINED_AGAIN)):
         for k, (_, labeller, refiner) in enumerate(labellers):
             known[k] = refiner.refined(mesh, labeller.labels(mesh, known[k]), floor, chord)
-        if len(mesh.tets) > CROWDED:
+        if len(mesh.tets) > MOST_TETRAHEDRA:
             lost = [walls.points[walls.lost] for walls in found]
             at = next((places[0] for places in lost if len(places)), mesh.points[0])
             raise GeometryError(
-                f"more than {CROWDED} tetrahedra would be needed to tell sites apart near {{at}}",
+                f"more than {MOST_TETRAHEDRA} tetrahedra would be needed to tell sites apart "
+                "near {at}",
                 at=at,
             )
         for k, (number, labeller, _) in enumerate(labellers):
@@ -104,7 +105,11 @@ def region_walls(
         many = sum(int(walls.lost.sum()) for walls in found)
         since = 0 if many < fewest else since + 1
         fewest = min(many, fewest)
-        if not left or since == PATIENCE or not _refined_where_lost(mesh, found, tools, floor):
+        if (
+            not left
+            or since == WITHOUT_PROGRESS
+            or not _refined_where_lost(mesh, found, tools, floor)
+        ):
             break
     return found
 
@@ -117,7 +122,7 @@ def _refined_where_lost(
     They are made as fine as the points at which some of a vertex's sites truly meet are apart.
     """
     places, lengths = [np.empty((0, 3))], [np.empty(0)]
-    least = FINEST * floor
+    least = FINEST_FLOOR * floor
     for number, walls in enumerate(found):
         rows = np.flatnonzero(mesh.region == number)
         cut = {tuple(place) for place in walls.passing.tolist()}
@@ -131,18 +136,18 @@ def _refined_where_lost(
             point = walls.points[vertex]
             near = tools[number].placer.meetings(walls.sites[vertex], point, longest)
             apart = pdist(near)
-            wide = float(apart.min(initial=np.inf, where=apart > APART * longest))
-            least_now = max(least, MOST * longest)
-            asked = float(np.clip(FINER * wide, least_now, SHORTER * longest))
+            wide = float(apart.min(initial=np.inf, where=apart > LEAST_APART * longest))
+            least_now = max(least, LEAST_AT_ONCE * longest)
+            asked = float(np.clip(OF_APART * wide, least_now, SHORTER * longest))
             places += [point[None], near]
             lengths.append(np.full(1 + len(near), asked))
     at, length = np.concatenate(places), np.concatenate(lengths)
     if len(at):
         tree = cKDTree(at)
-        for _ in range(HALVINGS):
+        for _ in range(WALL_HALVINGS):
             away, nearest = tree.query(mesh.points[mesh.tets].mean(axis=1))
             every = _longest(mesh, np.arange(len(mesh.tets)))
-            wanted = (away <= REACH * every) & (every > length[nearest])
+            wanted = (away <= REFINED_REACH * every) & (every > length[nearest])
             if not wanted.any():
                 break
             mesh.shorten(wanted)
@@ -152,7 +157,7 @@ def _refined_where_lost(
 def _longest(mesh: Bisected, tets: Ints) -> Array:
     """The longest edge (k,) of some tetrahedra."""
     corners = mesh.points[mesh.tets[tets]]
-    return np.asarray(norm(corners[:, EDGES[:, 0]] - corners[:, EDGES[:, 1]]).max(axis=1))
+    return np.asarray(norm(corners[:, TET_EDGES[:, 0]] - corners[:, TET_EDGES[:, 1]]).max(axis=1))
 
 
 def _cut_through(mesh: Bisected, found: Sequence[Extracted]) -> bool:

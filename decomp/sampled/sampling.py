@@ -36,6 +36,7 @@ from decomp.skeletons.cells.owners import site_owners
 from decomp.skeletons.certificate.certificate import VOLUME, Certified, explained, shortcomings
 from decomp.skeletons.certificate.shortcoming import refusal
 from decomp.skeletons.curves.region_curves import RegionCurves
+from decomp.skeletons.drafts import SHARE
 from decomp.skeletons.fineness import fine_enough, finer
 from decomp.skeletons.model import Method, RegionSkeleton, Skeleton
 from decomp.skeletons.traced_region import TracedRegion
@@ -43,17 +44,15 @@ from decomp.skeletons.traced_region import TracedRegion
 FLOORS = (12.0, 18.0)
 """Try after try, edges at walls are no longer than these parts of the model's diagonal, or shorter
 where the walls are close to the boundary."""
-COARSE = 2.0
+COARSE_START = 2.0
 """The tetrahedra that all begins with are so many times as long."""
-AWAY = 0.02
+START_TOLERANCE = 0.02
 """How far these may leave the boundary at first, in parts of their edges."""
-FINENESSES = 3
+SAMPLED_FINENESSES = 3
 """How often the tolerance is made finer for the volume's sake."""
 LOOSEST = 8.0
 """Where refining cannot reach the tolerance, so many times of it, and of what is allowed for
 volumes, are accepted and stated."""
-SHARE = 0.7
-"""The part of the tolerance that the boundary's edges may use up."""
 FILLING = 30.0
 """Seconds that the mesher may compute in each try."""
 
@@ -152,8 +151,10 @@ class _Attempt:
             floor: edges at walls are no longer.
         """
         geometry = self._geometry
-        size = COARSE * floor
-        given = interior(geometry, size, AWAY * size, TimeLimit.of_work(FILLING), self._tell)
+        size = COARSE_START * floor
+        given = interior(
+            geometry, size, START_TOLERANCE * size, TimeLimit.of_work(FILLING), self._tell
+        )
         owner = site_owners(geometry.sites, list(geometry.regions))
         tools = [
             tools_of(geometry, number, owner, number not in self._curves)
@@ -197,7 +198,7 @@ class _Attempt:
         """Refine and measure, more finely as long as volumes ask for it."""
         geometry, tolerance = self._geometry, self._tolerance
         result = _Try(None, ["nothing was tried"])
-        for left in reversed(range(FINENESSES)):
+        for left in reversed(range(SAMPLED_FINENESSES)):
             self._tell("refining")
             made, kept = refined(whole, fineness * geometry.diagonal, lenient=True)
             self._tell("measuring")

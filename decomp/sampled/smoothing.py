@@ -10,18 +10,17 @@ from dataclasses import replace
 import numpy as np
 
 from decomp.complex.many_elements import Elements
-from decomp.complex.model import Complex, LineKind
+from decomp.complex.model import SIDES, Complex, LineKind
 from decomp.complex.refining.errors_of import triangle_errors
 from decomp.complex.refining.lenient import LenientElements
 from decomp.vectors import Array, Bools, Ints
 
-ALONG = 12
+LINE_ROUNDS = 12
 """Rounds in which only what is on lines moves, so that it comes to stand in order."""
-ROUNDS, LEAST = 6, 3
+MOST_ROUNDS, LEAST_ROUNDS = 6, 3
 """Rounds at most, and at least."""
 RINGS = 2
 """Only so far around some triangles vertices are moved."""
-SIDES = np.array([[0, 1], [1, 2], [2, 0]])
 
 
 def unfolded(
@@ -51,12 +50,12 @@ def unfolded(
         element[~some] = -1
     points = np.array(given.points)
     numbers = elements.of_patch[patch]
-    for _ in range(ALONG):
+    for _ in range(LINE_ROUNDS):
         _move(elements, element, np.flatnonzero(element >= elements.first_curve), points, pairs)
     on_walls = patch >= first
-    for round_ in range(ROUNDS):
+    for round_ in range(MOST_ROUNDS):
         bad = on_walls & _folded(elements, numbers, points[triangles])
-        if round_ >= (LEAST if near is None else 1) and not bad.any():
+        if round_ >= (LEAST_ROUNDS if near is None else 1) and not bad.any():
             break
         _move(elements, element, np.flatnonzero(element >= 0), points, pairs)
     bad = on_walls & _folded(elements, numbers, points[triangles])

@@ -12,8 +12,9 @@ from decomp.geometry import Geometry
 from decomp.meshing.surface.surface import MeshSurface, RegionSurface, cells_of, checked, coarsest
 from decomp.sampled.beside import with_traced
 from decomp.sampled.patches import numbered_trims
-from decomp.sampled.sampling import SHARE, Sampled
+from decomp.sampled.sampling import Sampled
 from decomp.sampled.whole import without_trims
+from decomp.skeletons.drafts import SHARE
 from decomp.skeletons.model import TrimSurface
 from decomp.skeletons.sheets.trim_maker import owners
 from decomp.vectors import Ints

@@ -28,9 +28,9 @@ from decomp.vectors import Array, Bools, Ints
 
 ENOUGH = 4
 """A cell with no more candidates than this is not split,"""
-DEEP, CROWDED = 7, 8
+DEEP_LEVELS, CROWDED_LEAF = 7, 8
 """and one so many levels down only if it has more than so many."""
-DEPTH_LIMIT = 9
+CANDIDATES_DEPTH = 9
 CELL_LIMIT = 400_000
 
 
@@ -80,12 +80,12 @@ def candidate_tree(occupancy: OccupancyTree, sites: SiteTable, label: int) -> Ca
     items: list[Ints] = []
     total = 0
     level = whole
-    for depth in range(DEPTH_LIMIT + 1):
+    for depth in range(CANDIDATES_DEPTH + 1):
         radius = circumradius(half, 4 * occupancy.rounding)
         level = hand_down(occupancy, sites, label, depth, radius, level, centres, parents)
         made += len(centres)
-        split = level.sizes > (ENOUGH if depth < DEEP else CROWDED)
-        if depth == DEPTH_LIMIT or made + 8 * int(split.sum()) > CELL_LIMIT:
+        split = level.sizes > (ENOUGH if depth < DEEP_LEVELS else CROWDED_LEAF)
+        if depth == CANDIDATES_DEPTH or made + 8 * int(split.sum()) > CELL_LIMIT:
             split[:] = False
         first = made + 8 * (np.cumsum(split) - 1)
         ends = np.flatnonzero(~split)

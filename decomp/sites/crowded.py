@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.boundary.topology import RegionBoundary
 from decomp.curves.base import Curve
 from decomp.sites.occupancy import OccupancyTree
+from decomp.sites.occupancy_cells import circumradius
 from decomp.sites.on_boundary import ANYWHERE
 from decomp.vectors import Array, Ints, dot, norm
 
@@ -19,11 +20,11 @@ FaceLookup = Callable[[int, int, Array], Ints]
 """(region, carrier, points on it) -> the faces of the region that hold the points."""
 
 UNKNOWN, SEVERAL = -2, -1
-NEIGHBOURS = (12, 96)
-STEPS = 8
-BLOCK = 256
+NEIGHBOURS_ASKED = (12, 96)
+CROWDED_STEPS = 8
+POINTS_AT_ONCE = 256
 """So many points are looked at together."""
-EQUAL = 1e-6
+EQUAL_DISTANCES = 1e-6
 """Distances that differ by less than this part of them are equal."""
 
 
@@ -57,7 +58,9 @@ class FaceFinder:
         faces[left] = self.by_edges(carriers[left], feet[left])
         return faces
 
-    def by_edges(self, carriers: Ints, feet: Array, neighbours: Sequence[int] = NEIGHBOURS) -> Ints:
+    def by_edges(
+        self, carriers: Ints, feet: Array, neighbours: Sequence[int] = NEIGHBOURS_ASKED
+    ) -> Ints:
         """Faces (n,) that hold feet (n, 3) on carriers (n,), by the nearest edges.
 
         Args:
@@ -134,8 +137,10 @@ class _EdgeBalls:
         Near a point where edges cross tangentially balls say nothing.
         """
         found = np.empty(len(points), dtype=np.int64)
-        for start in range(0, len(points), BLOCK):
-            found[start : start + BLOCK] = self._nearest(points[start : start + BLOCK])
+        for start in range(0, len(points), POINTS_AT_ONCE):
+            found[start : start + POINTS_AT_ONCE] = self._nearest(
+                points[start : start + POINTS_AT_ONCE]
+            )
         return found
 
     def _nearest(self, points: Array) -> Ints:
@@ -153,14 +158,14 @@ class _EdgeBalls:
             first += count
         order = np.argsort(least, axis=1, kind="stable")
         best, second = (np.take_along_axis(least, order[:, [k]], axis=1)[:, 0] for k in (0, 1))
-        one = ~(second <= (1 + EQUAL) * best)
+        one = ~(second <= (1 + EQUAL_DISTANCES) * best)
         return np.where(one, names[np.minimum(order[:, 0], len(names) - 1)], SEVERAL)
 
 
 def _gaps(curve: Curve, low: Array, high: Array, points: Array) -> Array:
     """The distance of points (k, 3) from a part (k,) each of a curve that is close to them."""
     t = (low + high) / 2
-    for _ in range(STEPS):
+    for _ in range(CROWDED_STEPS):
         tangent = curve.derivative(curve.wrapped(t))
         step = dot(points - curve.point(curve.wrapped(t)), tangent) / dot(tangent, tangent)
         t = np.clip(t + step, low, high)
@@ -205,7 +210,7 @@ def leaf_balls(occupancy: OccupancyTree) -> Array:
         ends = link < 0
         # leaves that share a number have no carriers, so that nobody asks for their ball
         balls[-1 - link[ends], :3] = centres[ends]
-        balls[-1 - link[ends], 3] = np.sqrt(3.0) * half * (1 + 1e-9) + occupancy.rounding
+        balls[-1 - link[ends], 3] = circumradius(half, occupancy.rounding)
         half /= 2
         nodes = (link[~ends, None] + np.arange(8)).ravel()
         centres = (centres[~ends, None, :] + half * octants).reshape(-1, 3)

@@ -8,24 +8,28 @@ from __future__ import annotations
 
 from math import atan2, cos, inf, pi, sin, sqrt
 
-from decomp.carriers.compiled_carriers import TINY, CarrierTable, Triple, normal, signed_distance
+from decomp.carriers.compiled_carriers import CarrierTable, Triple, normal, signed_distance
 from decomp.kernels.compiled import inlined, inner, scalar
+from decomp.tolerance import LAST_STEP, TINY
 from decomp.vectors import Array
 
 LINE, ARC, SAMPLED = range(3)
-SINGULAR = 1e-6
+NEXT_TO_TOUCH = 1e-6
 HASTE = 8
 NEXT_TO_CONTACT = 1e-6
 """The part of a chord next to a point where two carriers touch that is looked at first."""
-BESIDE = 1e-3
+BESIDE_FARTHEST = 1e-3
 """How far beside a farthest point nearest ones are looked for, as a part of the way to a sample."""
-FLAT = 0.2
+FLAT_CHORD = 0.2
 """Less than this part of a chord p goes from ahead to behind along it, close to centres."""
-PARTS = 8
+CHORD_PARTS = 8
 """Into so many the chord is then cut."""
-LEVEL = 1e-13
+LEVEL_WITH = 1e-13
 """A point is neither ahead of another nor behind if it is so by this part of their distance."""
 WHOLE_TURN = 2 * pi * (1 - 1e-12)
+"""An arc of so much (radians) is a whole circle but for rounding."""
+NARROWED = 1e-14
+"""Part of a chord below which a level point is not looked for more closely."""
 
 
 @inner
@@ -120,14 +124,14 @@ def curve_point(
         mx, my, mz = normal(table, b, x, y, z)
         tx, ty, tz = ny * mz - nz * my, nz * mx - nx * mz, nx * my - ny * mx
         det = tx * wx + ty * wy + tz * wz
-        if abs(det) < SINGULAR:
+        if abs(det) < NEXT_TO_TOUCH:
             return False, x, y, z, tx, ty, tz
         da, db = signed_distance(table, a, x, y, z), signed_distance(table, b, x, y, z)
         # across the chord: n.step = -da, m.step = -db, w.step = 0
         x -= (da * (my * wz - mz * wy) + db * (wy * nz - wz * ny)) / det
         y -= (da * (mz * wx - mx * wz) + db * (wz * nx - wx * nz)) / det
         z -= (da * (mx * wy - my * wx) + db * (wx * ny - wy * nx)) / det
-        if abs(da) + abs(db) <= 1e-15 * chord:
+        if abs(da) + abs(db) <= LAST_STEP * chord:
             break
     if det < 0.0:
         tx, ty, tz = -tx, -ty, -tz
@@ -185,7 +189,7 @@ def from_end(
     """
     u, off = end, NEXT_TO_CONTACT
     good, ahead, q = advance(table, a, b, samples, i, u, p)
-    level = LEVEL * away(p, q)
+    level = LEVEL_WITH * away(p, q)
     while (not good or abs(ahead) <= level) and off < 0.1:
         u = off if end == 0.0 else 1.0 - off
         good, ahead, q = advance(table, a, b, samples, i, u, p)
@@ -237,7 +241,7 @@ def level_point(
         else:
             factor = value / (value + behind)
             high, behind, ahead = u, value, ahead * (1.0 - factor)
-        if high - low < 1e-14:
+        if high - low < NARROWED:
             break
     return least < inf, at, best
 
@@ -261,7 +265,7 @@ def nearest_level(
     found, u, best = level_point(table, a, b, samples, i, span, ends, p)
     if not found:
         return False, best
-    before, after = u - BESIDE * (u - span[0]), u + BESIDE * (span[1] - u)
+    before, after = u - BESIDE_FARTHEST * (u - span[0]), u + BESIDE_FARTHEST * (span[1] - u)
     good, value, _ = advance(table, a, b, samples, i, before, p)
     if not (good and value < 0.0):
         return True, best
@@ -286,15 +290,15 @@ def between_samples(
     high, good2, behind, r = from_end(table, a, b, samples, i, 1.0, p)
     if not (good and good2):
         return False, q
-    if ahead - behind >= FLAT * away(q, r):
+    if ahead - behind >= FLAT_CHORD * away(q, r):
         if not (ahead > 0.0 and behind < 0.0):
             return False, q
         return nearest_level(table, a, b, samples, i, (low, high), (ahead, behind), p)
     least, best, v, value = inf, q, low, ahead
-    for k in range(1, PARTS + 1):
+    for k in range(1, CHORD_PARTS + 1):
         u, next_value = high, behind
-        if k < PARTS:
-            u = low + k * (high - low) / PARTS
+        if k < CHORD_PARTS:
+            u = low + k * (high - low) / CHORD_PARTS
             good, next_value, _ = advance(table, a, b, samples, i, u, p)
             if not good:
                 return False, q

@@ -19,7 +19,7 @@ from decomp.sites.crowded import FaceFinder, FaceLookup
 from decomp.sites.nearest import nearest_in_region
 from decomp.sites.occupancy import Labels, OccupancyTree, labels_of, occupancy_tree, private
 from decomp.sites.occupancy_leaves import OUTSIDE
-from decomp.sites.points import BLOCK, checked_points
+from decomp.sites.points import QUERIES_AT_ONCE, checked_points
 from decomp.sites.site import Site, sites_of
 from decomp.sites.site_boxes import bounds_of
 from decomp.sites.site_table import RegionSites, region_sites
@@ -167,8 +167,8 @@ class SiteIndex:
             np.empty(n, dtype=np.int32),
         )
         labels_of(private(self.occupancy), given, result.region)
-        for start in range(0, n, BLOCK):
-            block = slice(start, min(start + BLOCK, n))
+        for start in range(0, n, QUERIES_AT_ONCE):
+            block = slice(start, min(start + QUERIES_AT_ONCE, n))
             for label in np.unique(result.region[block]):
                 self._fill(int(label), given[block], result, block)
         return result

@@ -23,18 +23,18 @@ from decomp.carriers.compiled_carriers import (
 from decomp.kernels.compiled import inner
 from decomp.vectors import Array, Ints
 
-SAMPLES = 32
+CIRCLE_SAMPLES = 32
 """Points of a circle between which signs are compared."""
 MOST_TURNS = 96
 """At so many angles signs may change; of more, the rest is left out."""
-PARTS = (0.5, 0.27, 0.81)
+BETWEEN_CHANGES = (0.5, 0.27, 0.81)
 """Where points are taken between two changes: in the middle a carrier may touch by symmetry."""
-ROOM = SAMPLES + len(PARTS) * MOST_TURNS
+ROOM = CIRCLE_SAMPLES + len(BETWEEN_CHANGES) * MOST_TURNS
 """Most points of a circle."""
-BISECTIONS = 45
+CIRCLE_BISECTIONS = 45
 CROSSING = 1e-3
 """Carriers cross where the sine of their angle, or the volume of three normals, is above this."""
-NARROW = 1e-9
+ONE_CHANGE = 1e-9
 """Changes nearer to each other than this angle are one."""
 
 
@@ -95,7 +95,7 @@ def _turn(
     before: float,
 ) -> float:
     """The angle between two at which another carrier changes sign from that of `before`."""
-    for _ in range(BISECTIONS):
+    for _ in range(CIRCLE_BISECTIONS):
         middle = (low + high) / 2
         if (_gap(table, carrier, other, q, radius, middle) < 0.0) == (before < 0.0):
             low = middle
@@ -128,13 +128,13 @@ def points_nearby(
     Returns:
         How many points there are.
     """
-    found, step = 0, 2.0 * pi / SAMPLES
+    found, step = 0, 2.0 * pi / CIRCLE_SAMPLES
     for j in range(count):
         first = _gap(table, carrier, others[j], q, radius, 0.0)
         before = first
-        for i in range(1, SAMPLES + 1):
+        for i in range(1, CIRCLE_SAMPLES + 1):
             here = first
-            if i < SAMPLES:
+            if i < CIRCLE_SAMPLES:
                 here = _gap(table, carrier, others[j], q, radius, i * step)
             if (before < 0.0) != (here < 0.0) and found < MOST_TURNS:
                 low, high = (i - 1) * step, i * step
@@ -150,13 +150,13 @@ def points_nearby(
     for k in range(found):
         low = turns[k]
         high = turns[k + 1] if k + 1 < found else turns[0] + 2.0 * pi
-        if high - low <= NARROW:
+        if high - low <= ONE_CHANGE:
             continue
-        for part in PARTS:
+        for part in BETWEEN_CHANGES:
             x, y, z = point_nearby(table, carrier, q, radius, low + part * (high - low))
             points[made, 0], points[made, 1], points[made, 2] = x, y, z
             made += 1
-    for i in range(SAMPLES):
+    for i in range(CIRCLE_SAMPLES):
         # off the circle's symmetric places
         x, y, z = point_nearby(table, carrier, q, radius, (i + 0.377) * step)
         points[made, 0], points[made, 1], points[made, 2] = x, y, z

@@ -26,13 +26,13 @@ from decomp.vectors import Array, Ints
 
 Labels = NDArray[np.int32]
 
-DEPTH_LIMIT = 12
+OCCUPANCY_DEPTH = 12
 CELL_LIMIT = 400_000
-FINE = 100_000
+FINE_NODES = 100_000
 """Up to so many nodes cells are split until one carrier is left, to save looking at others."""
 MOST_TIED = 24
 """So many carriers that hold one point are told apart by points close to it."""
-ROUNDING = 1e-12
+SIGN_ROUNDING = 1e-12
 """Signed distances below this, relative to the coordinates' size, may have either sign."""
 
 
@@ -63,7 +63,7 @@ def occupancy_tree(form: HalfSpaceForm, bounds: Array) -> OccupancyTree:
     """Build the octree over a box (2, 3) that holds every region."""
     table = carrier_table(form.carriers)
     extent = float(np.linalg.norm(bounds[1] - bounds[0]))
-    rounding = ROUNDING * max(extent, 0.01 * float(np.abs(bounds).max()))
+    rounding = SIGN_ROUNDING * max(extent, 0.01 * float(np.abs(bounds).max()))
     grid = grid_over(bounds)
     centres = root_centres(grid)
     half = grid.size / 2
@@ -71,12 +71,12 @@ def occupancy_tree(form: HalfSpaceForm, bounds: Array) -> OccupancyTree:
     links: list[Links] = []
     parts = [shared_leaves(len(form.program.roots))]
     made, leaves = 0, len(parts[0].whole)
-    for depth in range(DEPTH_LIMIT + 1):
+    for depth in range(OCCUPANCY_DEPTH + 1):
         made += len(cells.nodes)
         half /= 2
-        if depth < DEPTH_LIMIT and made + 8 * len(cells.nodes) < 8 * CELL_LIMIT:
+        if depth < OCCUPANCY_DEPTH and made + 8 * len(cells.nodes) < 8 * CELL_LIMIT:
             radius = circumradius(half, 4 * rounding)
-            kept = 1 if made + 8 * len(cells.nodes) < FINE else VARIABLES
+            kept = 1 if made + 8 * len(cells.nodes) < FINE_NODES else VARIABLES
             children, first = split(table, cells, half, radius, made, kept)
         else:
             children, first = cells, np.zeros(len(cells.nodes), dtype=np.int64)

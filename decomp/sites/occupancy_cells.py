@@ -24,6 +24,7 @@ from decomp.sites.programs import (
     restrict,
     with_room,
 )
+from decomp.tolerance import ENLARGED
 from decomp.vectors import Array, Ints
 
 
@@ -37,7 +38,7 @@ class Cells(NamedTuple):
 
 def circumradius(half: float, slack: float) -> float:
     """Radius of a ball around a cube of half side `half`, a bit enlarged."""
-    return sqrt(3.0) * half * (1 + 1e-9) + slack
+    return sqrt(3.0) * half * (1 + ENLARGED) + slack
 
 
 @inner_kernel

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from decomp.kernels.compiled import inlined, kernel
+from decomp.tolerance import ENLARGED
 from decomp.vectors import Array, Ints
 
 DEPTH = 20
@@ -53,8 +54,8 @@ def grid_over(bounds: Array, margin: float = 0.01) -> Grid:
     low = bounds[0] - margin * longest
     extent = extent + 2 * margin * longest
     size = max(float(extent.min()), float(extent.max()) / 64)
-    shape = [max(1, ceil(e / size - 1e-9)) for e in extent]
-    return Grid(low, size * (1 + 1e-9), np.array(shape, dtype=np.int64))
+    shape = [max(1, ceil(e / size - ENLARGED)) for e in extent]
+    return Grid(low, size * (1 + ENLARGED), np.array(shape, dtype=np.int64))
 
 
 @inlined

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 from decomp.errors import InputError
 from decomp.vectors import Array, reals
 
-BLOCK = 1 << 17
+QUERIES_AT_ONCE = 1 << 17
 """So many points are looked at together."""
 
 
@@ -22,8 +22,8 @@ def checked_points(points: ArrayLike) -> Array:
         return np.empty((0, 3))
     if given.ndim != 2 or given.shape[1] != 3:
         raise InputError(f"points must be an array of shape (n, 3), got {given.shape}")
-    for start in range(0, len(given), BLOCK):
-        bad = np.flatnonzero(~np.isfinite(given[start : start + BLOCK]).all(axis=1))
+    for start in range(0, len(given), QUERIES_AT_ONCE):
+        bad = np.flatnonzero(~np.isfinite(given[start : start + QUERIES_AT_ONCE]).all(axis=1))
         if len(bad):
             at = start + int(bad[0])
             raise InputError(f"points must be finite, got {given[at].tolist()} at index {at}")

@@ -10,6 +10,7 @@ from decomp.boundary.topology import Edge, Face, RegionBoundary
 from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.kernels.compiled import inlined
+from decomp.tolerance import ENLARGED
 from decomp.vectors import Array
 
 
@@ -40,7 +41,7 @@ def face_box(boundary: RegionBoundary, face: Face, around: list[Array]) -> Array
     edges = [around[k] for loop in face.loops for k, _ in loop]
     own = boundary.carriers[face.carrier].box_around(np.array(edges).reshape(-1, 6))
     own_low, own_high = (low, high) if own is None else own
-    slack = 1e-9 * boundary.diagonal
+    slack = ENLARGED * boundary.diagonal
     return np.concatenate([np.maximum(low, own_low) - slack, np.minimum(high, own_high) + slack])
 
 

@@ -30,12 +30,9 @@ from decomp.skeletons.model import Skeleton
 from decomp.skeletons.moved import moved_skeleton
 from decomp.skeletons.sheets.component_votes import MissingCurveError
 from decomp.skeletons.whole import Whole
+from decomp.tolerance import CHORDS, COARSEST_CHORDS
 from decomp.vectors import positive
 
-TOLERANCE = 5e-4
-"""Default chord tolerance, relative to the model's diagonal."""
-LARGEST = 0.1
-"""The largest chord tolerance that can be asked for."""
 TRACING = 0.6
 """The part of the whole that tracing is taken for."""
 FINENESSES = 7
@@ -50,7 +47,7 @@ Progress = Callable[[str, float], None]
 
 def skeleton(
     source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
-    tolerance: float = TOLERANCE,
+    tolerance: float = CHORDS,
     progress: Progress | None = None,
 ) -> Skeleton:
     """The exact interior skeleton of a model.
@@ -89,8 +86,8 @@ def checked(tolerance: object, progress: object) -> float:
             cannot be called.
     """
     number = positive(tolerance, "tolerance")
-    if number > LARGEST:
-        raise InputError(f"tolerance must be at most {LARGEST:g}, got {number:g}")
+    if number > COARSEST_CHORDS:
+        raise InputError(f"tolerance must be at most {COARSEST_CHORDS:g}, got {number:g}")
     called(progress, "progress")
     return number
 

@@ -9,14 +9,14 @@ import numpy as np
 
 from decomp.attempts import stage
 from decomp.complex.boundary.boundary import BoundaryMesh, boundary_mesh
-from decomp.complex.model import Complex, Patch, PatchKind
+from decomp.complex.model import Complex
 from decomp.errors import ContactError
 from decomp.geometry import Geometry
 from decomp.skeletons.assembly import RegionAssembler, RegionParts
 from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.curves.region_curves import RegionCurves, region_curves
+from decomp.skeletons.joining import Joined, fine_enough_to_part
 from decomp.skeletons.model import TrimSurface
-from decomp.skeletons.sheets.drawn_sheets import CrossingError
 from decomp.skeletons.sheets.trim_maker import BoundaryVertices
 from decomp.skeletons.traceable import refuse_untraceable
 from decomp.vectors import Array, Ints
@@ -25,9 +25,6 @@ SAMPLES = (2000, 20000)
 """Boundary points from which seams are looked for, attempt by attempt."""
 SHARE = 0.7
 """The part of the tolerance that curves may use up."""
-FINER = 4.0
-LEVELS = 5
-"""How much more finely, and how often, curves are sampled where they cross."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,15 +110,13 @@ def drafted(
         MissingCurveError: there are more curves than are known.
         CrossingError, GeometryError: a sheet cannot be triangulated.
     """
-    along, chords = SHARE * np.broadcast_to(tolerances, len(curves)), 1
+    along = SHARE * np.broadcast_to(tolerances, len(curves))
     nodes = [point for region in curves for point in region.turning_feet()]
-    for _ in range(LEVELS - 1):
-        try:
-            return _drafted(geometry, curves, (along, chords, False), nodes, with_trims)
-        except CrossingError:
-            # a curve that is straight in space is bent in a footprint
-            along, chords = along / FINER, 2 * chords
-    return _drafted(geometry, curves, (along, chords, True), nodes, with_trims)
+    return fine_enough_to_part(
+        lambda finer, chords, finest: _drafted(
+            geometry, curves, (along / finer, chords, finest), nodes, with_trims
+        )
+    )
 
 
 def _drafted(
@@ -146,29 +141,16 @@ def _drafted(
 
 
 def _joined(surface: BoundaryMesh, parts: Sequence[RegionParts], with_trims: bool) -> Draft:
-    patches, lines = [each.patch for each in surface.patches], list(surface.lines)
-    sheet_patches, trims, part_lines = [], [], []
-    for part in parts:
-        sheet_patches.append(tuple(range(len(patches), len(patches) + len(part.sheets))))
-        patches += [Patch(PatchKind.SHEET, s.surface, s.triangles) for s in part.sheets]
-        part_lines.append(tuple(range(len(lines), len(lines) + len(part.lines))))
-        lines += part.lines
-        own = []
-        for trim, patch in part.trims:
-            own.append(TrimSurface(len(patches) if with_trims else -1, trim.faces))
-            if with_trims:
-                patches.append(patch)
-        trims.append(tuple(own))
-        if with_trims:
-            lines += part.rulings
-    points = np.concatenate([surface.points, *(part.points for part in parts)])
+    joined = Joined([each.patch for each in surface.patches], surface.lines, with_trims)
+    numbers = [joined.add(each) for each in parts]
+    points = np.concatenate([surface.points, *(each.points for each in parts)])
     return Draft(
         surface,
         tuple(parts),
-        Complex(points, tuple(patches), tuple(lines)),
-        tuple(sheet_patches),
-        tuple(trims),
-        tuple(part_lines),
+        Complex(points, tuple(joined.patches), tuple(joined.lines)),
+        tuple(each.sheets for each in numbers),
+        tuple(each.trims for each in numbers),
+        tuple(each.lines for each in numbers),
     )
 
 

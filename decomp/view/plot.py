@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from decomp.meshes.model import TetMesh
     from decomp.skeletons.model import Skeleton
 
-FINE = 2e-3
+FINE_FACES = 2e-3
 """How far triangles may be off faces, in diagonals of the model."""
 COLOURS = "tab20"
 
@@ -43,7 +43,7 @@ def plot_geometry(geometry: Geometry, options: Mapping[str, Any]) -> Any:
     """Show the faces of all regions, each in a colour."""
     from decomp.complex.boundary.boundary import boundary_mesh
 
-    made = boundary_mesh(geometry.local, FINE * geometry.diagonal).complex
+    made = boundary_mesh(geometry.local, FINE_FACES * geometry.diagonal).complex
     surface = _surface(made.points + geometry.offset, [patch.triangles for patch in made.patches])
     usual = {"scalars": "face", "cmap": COLOURS, "show_scalar_bar": False}
     return surface.plot(**{**usual, "text": geometry.model.name, **options})

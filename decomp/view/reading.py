@@ -11,7 +11,7 @@ from decomp.errors import InputError
 from decomp.files.format import suffixes
 from decomp.formats.table import FORMATS
 from decomp.meshes.files.table import READ
-from decomp.places import FAR
+from decomp.places import FAR_SIZES
 from decomp.vectors import norm
 
 if TYPE_CHECKING:
@@ -55,6 +55,6 @@ def brought_near(scene: Scene) -> Scene:
         return scene
     low, high = scene.points.min(axis=0), scene.points.max(axis=0)
     middle = (low + high) / 2
-    if not norm(middle) > FAR * norm(high - low):
+    if not norm(middle) > FAR_SIZES * norm(high - low):
         return scene
     return replace(scene, points=scene.points - middle, origin=scene.origin + middle)

@@ -23,7 +23,7 @@ from decomp.view.histogram import histogram
 from decomp.view.reading import brought_near
 from decomp.view.table import Entry, Figure, Link, table
 
-FEW = 10
+ROWS_SEEN = 10
 """Rows of sizes that are seen at once; all are among the details."""
 PERCENT = "{:+.3f} %"
 LENGTHS = ("edges", "mean", "longest", "asked", "wanted in the mean")
@@ -50,7 +50,7 @@ def encoded(mesh: TetMesh, found: Report) -> bytes:
         '<iframe id="frame" title="the mesh, to be turned and cut"></iframe></div>',
         '<button id="picture" type="button">'
         f'<img src="data:image/png;base64,{image}" alt="the rear half of the mesh" '
-        f'width="{picture.WIDTH}" height="{picture.HEIGHT}">'
+        f'width="{picture.PICTURE_WIDTH}" height="{picture.PICTURE_HEIGHT}">'
         "<span>turn it, cut it, search it</span></button>",
         f"<div>{_sizes(found)}{_quality(mesh)}</div></div>",
         *_details(found),
@@ -88,7 +88,7 @@ def _figures(found: Report) -> str:
 
 def _sizes(found: Report) -> str:
     """The lengths of edges that were reached in all and in each region."""
-    rows = _lengths(found)[:FEW]
+    rows = _lengths(found)[:ROWS_SEEN]
     return "<h2>Sizes reached</h2>" + table(("in", *LENGTHS), rows)
 
 
@@ -141,7 +141,7 @@ def _details(found: Report) -> list[str]:
         _detail("Regions", ("region", *heads, "off the exact one"), regions, is_open=True),
         _detail("Cells", ("cell", *heads, "off the skeleton's"), cells),
         _detail("Surfaces", ("surface", "kind", "triangles"), surfaces),
-        _detail("Lengths of edges", ("in or on", *LENGTHS), lengths if lengths[FEW:] else []),
+        _detail("Lengths of edges", ("in or on", *LENGTHS), lengths if lengths[ROWS_SEEN:] else []),
         _detail("Ignored statements", ("line", "statement"), ignored, is_open=True),
         _detail("Times", ("stage", "seconds"), stages),
     ]

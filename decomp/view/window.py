@@ -11,11 +11,11 @@ from decomp.drawing.colouring import shown
 from decomp.drawing.scene import Part, Scene
 from decomp.vectors import Array
 
-REACH = 0.8
+EXPLODED = 0.8
 """The farthest that parts are moved out, in parts of their distance from the middle."""
 CREASE = 25.0
 """Lines are drawn where triangles of skeletons meet at more than this angle in degrees."""
-NEARER = -4.0
+DRAWN_NEARER = -4.0
 """Lines are drawn as if nearer to the eye by so many steps, in front of their surface."""
 HELP = "drag: turn   wheel: zoom   x, y, z: slice across   q: close"
 
@@ -62,7 +62,7 @@ class Window:
         """Move the parts away from the middle, by a share of REACH."""
         for part in self.shown:
             for actor in part.actors:
-                actor.position = share * REACH * part.way
+                actor.position = share * EXPLODED * part.way
         self.plotter.render()
 
     def slice(self, share: float) -> None:
@@ -106,7 +106,7 @@ class Window:
         if lines.n_cells:
             drawn = self.plotter.add_mesh(lines, color="#333333", line_width=1, pickable=False)
             drawn.mapper.SetResolveCoincidentTopologyToPolygonOffset()
-            drawn.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, NEARER)
+            drawn.mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, DRAWN_NEARER)
             actors.append(drawn)
         for actor in actors:
             actor.mapper.AddClippingPlane(self._plane)

@@ -16,7 +16,7 @@ from decomp.carriers.axial import axial_split
 from decomp.errors import GeometryError
 from decomp.vectors import Array, cross, dot, frame, norm
 
-STEEP = 1e-9
+NO_DIRECTION = 1e-9
 """Gradients (of differences of distances) that are shorter have no direction."""
 
 
@@ -43,8 +43,8 @@ def level_curvatures(gradient: Array, hessian: Array, p: Array) -> Curvatures:
         GeometryError: a gradient vanishes: there is no tangent plane.
     """
     steep = norm(gradient)
-    if (steep <= STEEP).any():
-        where = np.asarray(p)[steep <= STEEP].reshape(-1, 3)[0]
+    if (steep <= NO_DIRECTION).any():
+        where = np.asarray(p)[steep <= NO_DIRECTION].reshape(-1, 3)[0]
         raise GeometryError("the two distances change alike at {at}: no tangent plane", at=where)
     normal = gradient / steep[..., None]
     flat = normal.reshape(-1, 3)

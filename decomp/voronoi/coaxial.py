@@ -13,6 +13,7 @@ import numpy as np
 from flint import fmpq
 
 from decomp.voronoi.exact import inner
+from decomp.voronoi.found import Found
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import (
     RING,
@@ -47,7 +48,7 @@ ZERO, ONE = Fraction(0), Fraction(1)
 
 def coaxial_surface(
     f: CarrierSite, g: CarrierSite, e: int, axis: Axis, tolerance: float, angle: float
-) -> tuple[Shape, Polynomial | None]:
+) -> Found:
     """The Voronoi surface s_f = e s_g of two sites of revolution about `axis`.
 
     Raises:

@@ -34,6 +34,10 @@ from decomp.voronoi.sites import CarrierSite, ConeSite, CylinderSite, TorusSite
 
 RULINGS = 24
 """Rulings of a part on which equality is tried: it holds on whole arcs of them, or on none."""
+BEYOND_APEX = 1e-9
+"""A point lies beyond a cone's apex if it does by more than this part of its distance from it."""
+EQUAL_ALONG = 1e-7
+"""Distances from two sites are equal along a ray if they differ by less than this part."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +59,7 @@ class _Form:
         rho = norm(p - z[:, None] * self.axis.unit)
         value = float(self.across) * rho + float(self.along) * z
         cosine = sqrt(max(1 - self.sine**2, 0.0))
-        beyond = (self.sine > 0) & (rho * self.sine + z * cosine < -1e-9 * norm(p))
+        beyond = (self.sine > 0) & (rho * self.sine + z * cosine < -BEYOND_APEX * norm(p))
         return np.where(beyond, np.nan, value)
 
 
@@ -220,7 +224,7 @@ def _true(found: Shape, one: _Form, two: _Form) -> Array:
     ways = ways / norm(ways)[:, None]
     scale = abs(float(one.across)) + abs(float(one.along))
     with np.errstate(invalid="ignore"):
-        return np.asarray(np.abs(one(ways) - two(ways)) <= 1e-7 * scale)
+        return np.asarray(np.abs(one(ways) - two(ways)) <= EQUAL_ALONG * scale)
 
 
 def _union(parts: list[Shape]) -> Shape:

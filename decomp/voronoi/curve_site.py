@@ -16,10 +16,12 @@ from decomp.voronoi.bending import about_curve, about_point
 from decomp.voronoi.exact import Vector, exact, exact_vector
 from decomp.voronoi.sites import CylinderSite, TorusSite, VoronoiSite
 
-SAMPLES = 256
-NEWTON_STEPS = 12
-STEP = 1e-5
+FOOT_SAMPLES = 256
+NEWTON_ON_CURVE = 12
+DIFFERENCES = 1e-5
 """Of differences, in units of the domain."""
+SLANT = 1e-6
+"""Cosine of the angle with the curve above which a point's foot is an end of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,14 +50,14 @@ class CurveSite(VoronoiSite):
         return norm(p - self.foot(p))
 
     def foot(self, p: Array) -> Array:
-        """The nearest of `SAMPLES` points, then the parameter by Gauss and Newton."""
+        """The nearest of `FOOT_SAMPLES` points, then the parameter by Gauss and Newton."""
         flat = np.asarray(p, dtype=np.float64).reshape(-1, 3)
         t, known = self._samples
         gap = ((flat[:, None] - known[None]) ** 2).sum(axis=2)
         at = t[np.argmin(gap, axis=1)]
         best = self.curve.point(at)
-        step_limit = 2 * self.curve.period / SAMPLES
-        for _ in range(NEWTON_STEPS):
+        step_limit = 2 * self.curve.period / FOOT_SAMPLES
+        for _ in range(NEWTON_ON_CURVE):
             first, second = self.curve.derivative(at), self._second(at)
             away = self.curve.point(at) - flat
             slope = dot(first, first) + dot(away, second)
@@ -75,12 +77,12 @@ class CurveSite(VoronoiSite):
         tangent, second = first / speed, self._second(t)
         bend = (second - dot(second, tangent)[..., None] * tangent) / speed**2
         away = p - q
-        slant = np.abs(dot(away, tangent)) > 1e-6 * norm(away)
+        slant = np.abs(dot(away, tangent)) > SLANT * norm(away)
         return np.where(slant[..., None, None], about_point(away), about_curve(away, tangent, bend))
 
     def _second(self, t: Array) -> Array:
         """Second derivatives (..., 3), as differences of the first."""
-        h = self.curve.period * STEP
+        h = self.curve.period * DIFFERENCES
         ahead, behind = (self.curve.wrapped(t + s * h) for s in (1.0, -1.0))
         span = np.full_like(t, 2 * h) if self.curve.closed else ahead - behind
         change = self.curve.derivative(ahead) - self.curve.derivative(behind)
@@ -88,7 +90,7 @@ class CurveSite(VoronoiSite):
 
     @cached_property
     def _samples(self) -> tuple[Array, Array]:
-        t = np.linspace(*self.curve.domain, SAMPLES + 1)
+        t = np.linspace(*self.curve.domain, FOOT_SAMPLES + 1)
         return t, self.curve.point(t)
 
 

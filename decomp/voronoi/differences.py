@@ -13,14 +13,13 @@ import numpy as np
 
 from decomp.vectors import Array, norm
 from decomp.voronoi.exact import cross, floats, inner, minus
+from decomp.voronoi.found import Found, both_of
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, rational
 from decomp.voronoi.position import Axis, aligned
 from decomp.voronoi.profile import CurveKind, ProfileCircle, voronoi_curve
 from decomp.voronoi.shape import Shape, plane_pair, shape
 from decomp.voronoi.sites import ConeSite, CylinderSite, PlaneSite, SphereSite, TorusSite
-
-Found = tuple[Shape, Polynomial | None]
 
 
 def two_planes(f: PlaneSite, g: PlaneSite, e: int) -> Found:
@@ -127,12 +126,7 @@ def level_rings(f: TorusSite, g: TorusSite, tolerance: float, angle: float) -> F
     """
     tubes = CylinderSite(f.centre, f.axis, f.major), CylinderSite(g.centre, g.axis, g.major)
     found = [parallel_tubes(*tubes, e, tolerance, angle) for e in (1, -1)]
-    kept = [(part, equation) for part, equation in found if equation is not None]
-    if len(kept) == 1:
-        return kept[0]
-    (one, first), (two, second) = kept
-    whole = Shape(Kind.TWO_SURFACES, one.origin, one.axes, {}, (one, two))
-    return whole, Polynomial.of(first.raw * second.raw, f.centre)
+    return both_of(found, f.centre)
 
 
 def tubes_for_cones(

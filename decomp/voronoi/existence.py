@@ -20,10 +20,10 @@ from decomp.voronoi.kinds import Kind
 from decomp.voronoi.shape import Shape, shape
 from decomp.voronoi.sites import CarrierSite, CylinderSite, SphereSite, TorusSite, VoronoiSite
 
-SAMPLES = 96
-FAR = (1.5, 30.0, 1e4)
+PAIR_SAMPLES = 96
+SAMPLES_AT = (1.5, 30.0, 1e4)
 """Distances of samples from the middle, in units of the size."""
-WINDOW = 1e3
+COMMON_WINDOW = 1e3
 """Where sites are searched for common points, in units of the size."""
 
 
@@ -42,7 +42,7 @@ def degenerate(
     values = np.concatenate([-e * g.signed_distance(on_f), f.signed_distance(on_g)])
     if values.min() < -tolerance and values.max() > tolerance:
         return None
-    met = _common(f, g, middle, WINDOW * size, tolerance)
+    met = _common(f, g, middle, COMMON_WINDOW * size, tolerance)
     if met is None:
         return None
     if not len(met):
@@ -55,9 +55,9 @@ def degenerate(
 
 def _on(site: VoronoiSite, other: VoronoiSite, middle: Array, size: float) -> Array:
     """Points (k, 3) of a site, near and far, and those nearest to the other's."""
-    ways = np.random.default_rng(0).normal(size=(SAMPLES, 3))
+    ways = np.random.default_rng(0).normal(size=(PAIR_SAMPLES, 3))
     ways /= norm(ways)[:, None]
-    around = [middle + far * size * ways for far in FAR]
+    around = [middle + far * size * ways for far in SAMPLES_AT]
     return np.asarray(site.foot(np.concatenate([*around, other.foot(around[0])])))
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from decomp.vectors import Array
 from decomp.voronoi.exact import Vector, cross, floats, inner, length, minus, moved
+from decomp.voronoi.found import Found
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, linear, squared_distance_from_line
 from decomp.voronoi.position import Axis
@@ -85,9 +86,7 @@ def _ring_and_ball(ring: TorusSite, ball: SphereSite) -> FocalForm:
     return FocalForm(Axis(c, ring.axis), gradient, constant)
 
 
-def focal_surface(
-    form: FocalForm, tolerance: float, angle: float
-) -> tuple[Shape, Polynomial | None]:
+def focal_surface(form: FocalForm, tolerance: float, angle: float) -> Found:
     """What surface it is, and its polynomial."""
     z, origin = form.axis.unit, form.axis.origin
     gradient = floats(form.gradient)

@@ -23,10 +23,16 @@ from decomp.voronoi.polynomial import Polynomial
 from decomp.voronoi.sites import CarrierSite
 from decomp.voronoi.stationary import stationary_feet
 
-NEWTON_STEPS = 15
+SYSTEM_STEPS = 15
 RESTARTS = 8
-CLOSE = 1e-9
+EQUAL_LENGTHS = 1e-9
 """Lengths below this part of the size are equal."""
+LEFT_OUT = 1e-13
+"""Singular values below this part of the largest are left out of a Newton step."""
+STEPS_SETTLED = 1e-14
+"""Steps below which Newton's method has come to rest, relative to what it has come to."""
+GRADIENTS_ALIKE = 1e-9
+"""Length of the difference of two gradients below which they are one."""
 
 
 class Status(Enum):
@@ -114,18 +120,18 @@ def solve(f: Polynomial, g: Polynomial, p: Array, u: Array, v: Array) -> tuple[A
         sides.append(_Side(polynomial, frame(gradient / size)))
     d = (np.linalg.norm(p - u) + np.linalg.norm(p - v)) / 2
     w = np.concatenate([p, u, v, [d]])
-    for _ in range(NEWTON_STEPS):
+    for _ in range(SYSTEM_STEPS):
         values, jacobian = _system(sides, w)
         scale = np.linalg.norm(jacobian, axis=1)
         scale = np.where(scale > 0, scale, 1.0)
-        step = np.linalg.lstsq(jacobian / scale[:, None], values / scale, rcond=1e-13)[0]
+        step = np.linalg.lstsq(jacobian / scale[:, None], values / scale, rcond=LEFT_OUT)[0]
         w = w - step
-        if np.abs(step).max() <= 1e-14 * (1 + np.abs(w).max()):
+        if np.abs(step).max() <= STEPS_SETTLED * (1 + np.abs(w).max()):
             break
     values, jacobian = _system(sides, w)
     scale = np.linalg.norm(jacobian, axis=1)
     residual = float(np.abs(values / np.where(scale > 0, scale, 1.0)).max())
-    if not residual <= CLOSE * (1 + np.abs(w).max()):
+    if not residual <= EQUAL_LENGTHS * (1 + np.abs(w).max()):
         raise GeometryError("the eight equations have no solution near the given values")
     return w, residual
 
@@ -172,7 +178,8 @@ def voronoi_points(f: CarrierSite, g: CarrierSite, p: Array, reach: float) -> li
             if solution is None:
                 continue
             new = all(
-                np.linalg.norm(solution.feet - other.feet) > CLOSE * (1 + reach) for other in found
+                np.linalg.norm(solution.feet - other.feet) > EQUAL_LENGTHS * (1 + reach)
+                for other in found
             )
             if new and np.linalg.norm(solution.point - p) <= reach:
                 found.append(solution)
@@ -210,7 +217,7 @@ def _near(
         far = float(np.linalg.norm(w[:3] - p)) > reach
         return None if far else _described(f, g, one, two, w, residual)
     # a difference that has one sign at all these points is taken to have no zero near
-    if min(gaps) > CLOSE * reach or max(gaps) < -CLOSE * reach:
+    if min(gaps) > EQUAL_LENGTHS * reach or max(gaps) < -EQUAL_LENGTHS * reach:
         return None
     raise reason
 
@@ -229,7 +236,7 @@ def _described(
         sides.append(side)
     slope = ways[0] - ways[1]
     steep = float(np.linalg.norm(slope))
-    if steep <= 1e-9:
+    if steep <= GRADIENTS_ALIKE:
         raise GeometryError("the two distances change alike: there is no tangent plane")
     normal = slope / steep
     x, y = frame(normal)
@@ -238,7 +245,7 @@ def _described(
     size = 1 + float(np.abs(w).max())
     status = Status.TRUE
     for site, side in zip((f, g), sides, strict=True):
-        if abs(float(site.signed_distance(p)) - side * d) > CLOSE * size:
+        if abs(float(site.signed_distance(p)) - side * d) > EQUAL_LENGTHS * size:
             status = Status.NOT_NEAREST
     return VoronoiPoint(
         p,
@@ -263,7 +270,7 @@ def _distance_form(
     """
     gradient = outward * polynomial.gradient(foot)
     size = float(np.linalg.norm(gradient))
-    if size <= CLOSE:
+    if size <= EQUAL_LENGTHS:
         raise GeometryError("a foot is a singular point of its surface")
     normal = gradient / size
     side = 1 if float((p - foot) @ normal) >= 0 else -1

@@ -75,8 +75,8 @@ class ProfileCurve:
 
 
 Profile = ProfileLine | ProfileCircle
-NOWHERE = np.zeros(2)
-EMPTY = ProfileCurve(CurveKind.EMPTY, NOWHERE, NOWHERE)
+NO_CENTRE = np.zeros(2)
+EMPTY = ProfileCurve(CurveKind.EMPTY, NO_CENTRE, NO_CENTRE)
 
 
 def voronoi_curve(f: Profile, g: Profile, e: int, tolerance: float, angle: float) -> ProfileCurve:

@@ -13,10 +13,9 @@ from decomp.voronoi.differences import (
     two_planes,
 )
 from decomp.voronoi.focal import focal_form, focal_surface
-from decomp.voronoi.polynomial import Polynomial
+from decomp.voronoi.found import Found
 from decomp.voronoi.position import Axis, aligned, common_axis
 from decomp.voronoi.rings import ring_and_level_tube, threaded_rings
-from decomp.voronoi.shape import Shape
 from decomp.voronoi.sites import (
     CarrierSite,
     ConeSite,
@@ -29,7 +28,7 @@ from decomp.voronoi.sites import (
 
 def recognise(
     f: CarrierSite, g: CarrierSite, e: int, tolerance: float, angle: float
-) -> tuple[Shape, Polynomial | None] | None:
+) -> Found | None:
     """Shape and polynomial of the surface s_f = e s_g, None if it is of no special kind.
 
     Args:

@@ -15,13 +15,12 @@ import numpy as np
 from decomp.vectors import norm
 from decomp.voronoi.exact import cross, floats, inner, length, minus, moved, unit
 from decomp.voronoi.focal import FocalForm, focal_surface
+from decomp.voronoi.found import Found, both_of
 from decomp.voronoi.kinds import Kind
 from decomp.voronoi.polynomial import Polynomial, height
 from decomp.voronoi.position import Axis, aligned
-from decomp.voronoi.shape import Shape, plane_pair, shape
+from decomp.voronoi.shape import plane_pair, shape
 from decomp.voronoi.sites import CylinderSite, TorusSite
-
-Found = tuple[Shape, Polynomial | None]
 
 
 def ring_and_level_tube(
@@ -44,12 +43,7 @@ def ring_and_level_tube(
         gradient = moved((Fraction(0),) * 3, side / size, normal)
         forms.append(FocalForm(axis, gradient, ring.major - inner(gradient, tube.point)))
     found = [focal_surface(form, tolerance, angle) for form in forms]
-    kept = [(part, equation) for part, equation in found if equation is not None]
-    if len(kept) == 1:
-        return kept[0]
-    (one, first), (two, second) = kept
-    whole = Shape(Kind.TWO_SURFACES, one.origin, one.axes, {}, (one, two))
-    return whole, Polynomial.of(first.raw * second.raw, ring.centre)
+    return both_of(found, ring.centre)
 
 
 def threaded_rings(

@@ -6,6 +6,7 @@ Notation: s is the signed distance, positive outside; e is +1 or -1; d the offse
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -38,6 +39,8 @@ __all__ = [
     "VoronoiSite",
     "of_carrier",
 ]
+NO_ANGLE = 1e-14
+"""Squares of sine and cosine add to 1 but for less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,21 +72,16 @@ class PlaneSite(CarrierSite):
         return self.distance - e * D
 
 
-@dataclass(frozen=True, eq=False)
-class SphereSite(CarrierSite):
-    """The sphere about `centre`; a point if the radius is zero."""
+class RoundSite(CarrierSite):
+    """All points at a distance, `radius`, from a point or a line, which it is if that is zero."""
 
-    centre: Vector
     radius: Fraction
-    kind: ClassVar[str] = "sphere"
+    core: ClassVar[str]
+    """What it is if the radius is zero."""
 
     @property
     def name(self) -> str:
-        return "sphere" if self.radius else "point"
-
-    @property
-    def reference(self) -> Vector:
-        return self.centre
+        return self.kind if self.radius else self.core
 
     @property
     def size(self) -> float:
@@ -92,6 +90,28 @@ class SphereSite(CarrierSite):
     @property
     def two_sided(self) -> bool:
         return self.radius > 0
+
+    @property
+    @abstractmethod
+    def square(self) -> Raw:
+        """(s + radius)^2: the squared distance from the point or line."""
+
+    def offset(self, e: int) -> Raw:
+        return self.square - (rational(self.radius) + e * D) ** 2
+
+
+@dataclass(frozen=True, eq=False)
+class SphereSite(RoundSite):
+    """The sphere about `centre`; a point if the radius is zero."""
+
+    centre: Vector
+    radius: Fraction
+    kind: ClassVar[str] = "sphere"
+    core: ClassVar[str] = "point"
+
+    @property
+    def reference(self) -> Vector:
+        return self.centre
 
     @cached_property
     def carrier(self) -> Sphere:
@@ -99,37 +119,22 @@ class SphereSite(CarrierSite):
 
     @cached_property
     def square(self) -> Raw:
-        """(s + radius)^2."""
         return squared_distance(self.centre)
-
-    def offset(self, e: int) -> Raw:
-        return self.square - (rational(self.radius) + e * D) ** 2
 
 
 @dataclass(frozen=True, eq=False)
-class CylinderSite(CarrierSite):
+class CylinderSite(RoundSite):
     """The cylinder about the line through `point` along `axis`; a line if the radius is zero."""
 
     point: Vector
     axis: Vector
     radius: Fraction
     kind: ClassVar[str] = "cylinder"
-
-    @property
-    def name(self) -> str:
-        return "cylinder" if self.radius else "line"
+    core: ClassVar[str] = "line"
 
     @property
     def reference(self) -> Vector:
         return self.point
-
-    @property
-    def size(self) -> float:
-        return float(self.radius)
-
-    @property
-    def two_sided(self) -> bool:
-        return self.radius > 0
 
     @cached_property
     def carrier(self) -> Cylinder:
@@ -137,11 +142,7 @@ class CylinderSite(CarrierSite):
 
     @cached_property
     def square(self) -> Raw:
-        """(s + radius)^2."""
         return squared_distance_from_line(self.point, self.axis)
-
-    def offset(self, e: int) -> Raw:
-        return self.square - (rational(self.radius) + e * D) ** 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,7 +158,7 @@ class ConeSite(CarrierSite):
     def __post_init__(self) -> None:
         super().__post_init__()
         off = abs(float(self.sine**2 + self.cosine**2) - 1)
-        if self.sine <= 0 or self.cosine <= 0 or off > 1e-14:
+        if self.sine <= 0 or self.cosine <= 0 or off > NO_ANGLE:
             raise InputError(
                 "sine and cosine of a cone must be those of an angle between 0 and 90 degrees, "
                 f"got {float(self.sine):g} and {float(self.cosine):g}"

@@ -14,7 +14,7 @@ from decomp.carriers import Carrier
 from decomp.curves.base import Curve
 from decomp.errors import GeometryError, InputError
 from decomp.parity import Parity
-from decomp.tolerance import TOLERANCE
+from decomp.tolerance import LAST_STEP, TOLERANCE
 from decomp.vectors import Array, Bools, dot, norm
 from decomp.voronoi.bending import Curvatures, level_curvatures
 from decomp.voronoi.conic_site import ConicSite, of_conic
@@ -31,14 +31,16 @@ from decomp.voronoi.sites import CarrierSite, ConeSite, SphereSite, VoronoiSite,
 
 ALGEBRAIC = (CarrierSite, ConicSite)
 """Sites whose offsets have an equation."""
-NEWTON_STEPS = 40
+PROJECTION_STEPS = 40
 """Steps of a projection; it converges quadratically, within about six from close by."""
-HALVINGS = 12
-LINE = (
+STEP_HALVINGS = 12
+GENERIC_LINE = (
     (Fraction(3, 7), Fraction(-5, 11), Fraction(2, 13)),
     (Fraction(17, 19), Fraction(-23, 29), Fraction(31, 37)),
 )
 """A point and a direction without relation to any model."""
+NO_SLOPE = 1e-24
+"""Square of a gradient below which there is no way to go."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +88,7 @@ class VoronoiSurface:
     def degree(self) -> int | None:
         """Of the polynomial, between two conics found on a line only; else None."""
         if isinstance(self.f, ConicSite) and isinstance(self.g, ConicSite):
-            return degree_on_line(self.f, self.g, self.parity.sign, *LINE)
+            return degree_on_line(self.f, self.g, self.parity.sign, *GENERIC_LINE)
         return None if self.polynomial is None else self.polynomial.degree
 
     @property
@@ -144,15 +146,16 @@ class VoronoiSurface:
         """
         q = np.array(p, dtype=np.float64)
         value = self.difference(q)
-        for _ in range(NEWTON_STEPS):
-            if float(np.max(np.abs(value), initial=0.0)) <= 1e-15 * self.size:
+        for _ in range(PROJECTION_STEPS):
+            if float(np.max(np.abs(value), initial=0.0)) <= LAST_STEP * self.size:
                 break
             slope = self.difference_gradient(q)
             square = dot(slope, slope)
-            step = np.where(square > 1e-24, value / np.where(square > 1e-24, square, 1.0), 0.0)
+            steep = square > NO_SLOPE
+            step = np.where(steep, value / np.where(steep, square, 1.0), 0.0)
             step = np.clip(step, -self.size, self.size)[..., None] * slope
             # across a reflexive locus the gradient jumps: then a shorter step is taken
-            for _ in range(HALVINGS):
+            for _ in range(STEP_HALVINGS):
                 ahead = self.difference(q - step)
                 worse = np.abs(ahead) > np.abs(value)
                 if not worse.any():

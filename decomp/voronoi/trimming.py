@@ -19,7 +19,7 @@ from decomp.curves.hyperbola import Hyperbola
 from decomp.curves.line import Line
 from decomp.curves.parabola import Parabola
 from decomp.errors import GeometryError
-from decomp.tolerance import TOLERANCE
+from decomp.tolerance import TINY, TOLERANCE
 from decomp.vectors import Array, cross, dot, norm
 from decomp.voronoi.canonical import equation_of
 from decomp.voronoi.exact import Vector, exact_vector
@@ -69,7 +69,7 @@ def trim_surface(curve: Curve, carrier: Carrier) -> TrimSurface:
     t = np.linspace(*curve.domain, 9)
     off = np.abs(carrier.signed_distance(curve.point(t)))
     reach = float(curve.bounding_ball()[1])
-    if float(off.max()) > TOLERANCE * max(reach, 1e-300):
+    if float(off.max()) > TOLERANCE * max(reach, TINY):
         raise GeometryError(f"the {curve.kind} does not lie on the {carrier.kind}")
     if isinstance(carrier, Plane):
         return TrimSurface(curve, carrier, _on_plane(curve, carrier), None)

@@ -14,13 +14,14 @@ from decomp.errors import ContactError, GeometryError, InputError
 from decomp.geometry import Geometry
 from decomp.located import located
 from decomp.sampled.sampling import Sampled, TracedRegionError, sampled_skeleton
-from decomp.skeletons.compute import TOLERANCE, checked
+from decomp.skeletons.compute import checked
 from decomp.skeletons.compute import skeleton as traced_skeleton
 from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.drafts import SAMPLES, traced_alone
 from decomp.skeletons.model import Method as Found
 from decomp.skeletons.model import Skeleton
 from decomp.skeletons.moved import moved_skeleton
+from decomp.tolerance import CHORDS
 
 Method = Literal["auto", "traced", "sampled"]
 
@@ -29,7 +30,7 @@ Progress = Callable[[str, float], None]
 
 def skeleton(
     source: Geometry | Model | Solid | dict[str, Solid] | str | Path,
-    tolerance: float = TOLERANCE,
+    tolerance: float = CHORDS,
     progress: Progress | None = None,
     method: Method = "traced",
 ) -> Skeleton:

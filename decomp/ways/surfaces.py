@@ -9,7 +9,7 @@ from decomp.geometry import Geometry
 from decomp.meshing.surface.surface import MeshSurface, SurfaceMaker, Surfaces
 from decomp.sampled.sampling import sampled_skeleton
 from decomp.sampled.surfaces import SampledSurfaces
-from decomp.skeletons.compute import TOLERANCE
+from decomp.tolerance import CHORDS
 from decomp.ways.skeleton import Method, sampled_where_refused
 
 Progress = Callable[[str, float], None]
@@ -30,7 +30,7 @@ def surfaces_by(method: Method) -> Surfaces:
 
 
 def _sampled(geometry: Geometry, tell: Progress) -> SampledSurfaces:
-    return SampledSurfaces(geometry, sampled_skeleton(geometry, TOLERANCE, tell))
+    return SampledSurfaces(geometry, sampled_skeleton(geometry, CHORDS, tell))
 
 
 class _Auto:
@@ -63,5 +63,5 @@ class _Auto:
         return self._sampled.made(tolerance, by_face)
 
     def _sample(self, cause: GeometryError) -> None:
-        found = sampled_where_refused(self._geometry, TOLERANCE, self._tell, cause)
+        found = sampled_where_refused(self._geometry, CHORDS, self._tell, cause)
         self._sampled = SampledSurfaces(self._geometry, found)

@@ -159,7 +159,7 @@ def test_it_ends_whatever_becomes_of_the_error(body: str, code: int) -> None:
     program = f"""
 import gc, os, signal, sys, time
 import decomp.cli.ending as ending
-ending.AGAIN = ending.AT_LAST = 1
+ending.RAISED_AGAIN = ending.AT_LAST = 1
 def kill():
     gc.callbacks.clear()
     os.kill(os.getpid(), signal.SIGTERM)

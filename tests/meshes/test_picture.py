@@ -54,7 +54,7 @@ def test_a_bar(tmp_path: Path) -> None:
     path = tmp_path / "bar.png"
     bar(4).write(path)
     colours = decoded(path.read_bytes())
-    assert colours.shape == (picture.HEIGHT, picture.WIDTH, 3)
+    assert colours.shape == (picture.PICTURE_HEIGHT, picture.PICTURE_WIDTH, 3)
     assert (colours[[0, 0, -1, -1], [0, -1, 0, -1]] == 255).all()
     # front and top of the left and the right, and the right end
     assert large_areas(colours) == 5
@@ -62,7 +62,7 @@ def test_a_bar(tmp_path: Path) -> None:
     for colour in ("#0072B2", "#E69F00"):
         spots = np.argwhere((np.abs(colours - 255 * np.array(rgb(colour))) < 1).all(axis=2))
         assert len(spots) > 100
-        assert spots[:, 1].min() > 0.8 * picture.WIDTH
+        assert spots[:, 1].min() > 0.8 * picture.PICTURE_WIDTH
 
 
 def test_a_bar_is_cut_where_it_is_told() -> None:
@@ -75,7 +75,7 @@ def test_a_bar_is_cut_where_it_is_told() -> None:
     drawn = (colours[: place.foot, : place.column] < 250).any(axis=2)
     rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
     wide, high = np.ptp(columns) + 1, np.ptp(rows) + 1
-    assert wide == pytest.approx((1 - 2 * picture.MARGIN) * place.column, abs=2)
+    assert wide == pytest.approx((1 - 2 * picture.DRAWING_MARGIN) * place.column, abs=2)
     assert wide / high == pytest.approx(2, rel=0.02)
 
 

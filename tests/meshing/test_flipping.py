@@ -10,7 +10,7 @@ from scipy.spatial import Delaunay  # type: ignore[import-untyped]
 
 from decomp.meshes.faces import faces_of, is_complex, least_dihedral, volumes
 from decomp.meshing.repairs.flipping import WANTED, flipped
-from decomp.meshing.repairs.rings import RING
+from decomp.meshing.repairs.rings import LARGEST_RING
 from decomp.vectors import Array, Ints
 
 NO_TRIANGLES = np.empty((0, 3), dtype=np.int64)
@@ -78,7 +78,7 @@ def test_some_scattered_tetrahedra_are_exchanged() -> None:
     assert after < before
 
 
-@pytest.mark.parametrize("count", [3, 4, 5, 6, RING])
+@pytest.mark.parametrize("count", [3, 4, 5, 6, LARGEST_RING])
 def test_an_edge_goes_that_passes_close_to_its_ring(count: int) -> None:
     points, tets = around_an_edge(count)
     part = np.zeros(count, dtype=np.int64)
@@ -89,7 +89,7 @@ def test_an_edge_goes_that_passes_close_to_its_ring(count: int) -> None:
     assert least_dihedral(points, tets).min() < 3 < 20 < least_dihedral(points, found[0]).min()
 
 
-@pytest.mark.parametrize("count", [3, RING])
+@pytest.mark.parametrize("count", [3, LARGEST_RING])
 def test_an_edge_on_a_patch_stays(count: int) -> None:
     points, tets = around_an_edge(count)
     assert flipped(points, tets, np.zeros(count, dtype=np.int64), tets[:1, :3]) is None

@@ -18,7 +18,7 @@ from decomp.meshes.quality import inverted, volumes
 from decomp.meshes.report import report
 from decomp.meshing.backends.base import Task, Tetrahedra
 from decomp.meshing.backends.table import mesher
-from decomp.meshing.repairs.shortening import LONGEST
+from decomp.meshing.repairs.shortening import LONGEST_EDGE
 from decomp.meshing.repairs.splitting import held
 from tests.meshing.meshers import put_in_place
 from tests.meshing.meshes import MODELS, geometry, meshed
@@ -85,7 +85,7 @@ def test_edges_are_as_long_as_asked(name: str) -> None:
     for part in (*found.regions, *found.surfaces):
         if part.edges is not None:
             assert part.edges.asked is not None and part.edges.wanted is not None
-            assert part.edges.longest <= LONGEST * part.edges.asked
+            assert part.edges.longest <= LONGEST_EDGE * part.edges.asked
             assert part.edges.mean <= 1.05 * part.edges.asked
             assert part.edges.mean >= 0.75 * part.edges.wanted
 

@@ -140,7 +140,7 @@ def test_triangles_are_paired_whatever_the_number_of_vertices(
     most: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _, tets = grid(3)
-    monkeypatch.setattr("decomp.meshes.faces.MOST", most)
+    monkeypatch.setattr("decomp.meshes.faces.MOST_VERTICES", most)
     faces = faces_of(tets)
     inner = faces.tets[:, 1] >= 0
     assert (inner.sum(), (~inner).sum()) == (2 * len(tets) - 54, 108)

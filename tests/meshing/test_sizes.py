@@ -12,7 +12,13 @@ from decomp.carriers import Cone, Cylinder, Plane, Sphere, Torus
 from decomp.csg.solid import Solid
 from decomp.meshing.sizing.expected import expected_tets
 from decomp.meshing.sizing.features import fitting_tolerance, least_thickness, usual_tolerance
-from decomp.meshing.sizing.field import STEEP, WIDTH, is_uniform, octree_corners, sizing
+from decomp.meshing.sizing.field import (
+    CELL_WIDTH,
+    OUTSIDE_SLOPE,
+    is_uniform,
+    octree_corners,
+    sizing,
+)
 from decomp.meshing.sizing.sizes import Wanted, curvatures, region_sizes, wishes
 from decomp.meshing.sizing.wishes import SLOPE, UNKNOWN, joined
 from decomp.meshing.surface.surface import MeshSurface, SurfaceMaker
@@ -77,7 +83,7 @@ def test_the_background_has_the_lengths_wanted_and_covers_the_model() -> None:
     inside = geometry.index.region_of(places) == 0
     exact = np.minimum(wish.at(places), np.where(inside, sizes[0], np.inf))
     away = np.maximum(geometry.index.nearest(places).distance - exact, 0)
-    exact += np.where(inside, 0, (STEEP - SLOPE) * away)
+    exact += np.where(inside, 0, (OUTSIDE_SLOPE - SLOPE) * away)
     assert (found > 0.6 * exact).all()
     assert (found < 1.7 * exact).all()
 
@@ -91,7 +97,7 @@ def test_cells_are_small_where_lengths_are() -> None:
         np.diff(np.sort(np.linalg.norm(corners - at, axis=1))[:2])[0]
         for at in corners[cKDTree(corners).query([[0, 0, 0], [10, 0, 0]])[1]]
     )
-    assert 0.03 < near < WIDTH * 0.1 * 1.1
+    assert 0.03 < near < CELL_WIDTH * 0.1 * 1.1
     assert near < 0.3 * far
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from decomp.complex.model import OPPOSITE_SIDES
 from decomp.meshes.faces import edges_of
-from decomp.meshing.backends.tetwild.subdividing import ACROSS, SIDES, subdivided
+from decomp.meshing.backends.tetwild.subdividing import LADDER, subdivided
 from decomp.vectors import cross, norm
 
 # two patches that meet along a long edge, one of three triangles at it
@@ -36,15 +37,15 @@ def strips(count, height):
 @pytest.mark.parametrize("longest", [4.0, 1.0, 0.3])
 def test_no_edge_is_longer_than_asked(longest):
     points, triangles = subdivided(POINTS, TRIANGLES, evenly(longest), FLAT)
-    edges, _ = edges_of(triangles, SIDES)
-    assert norm(points[edges[:, 0]] - points[edges[:, 1]]).max() <= ACROSS * longest
+    edges, _ = edges_of(triangles, OPPOSITE_SIDES)
+    assert norm(points[edges[:, 0]] - points[edges[:, 1]]).max() <= LADDER * longest
 
 
 @pytest.mark.parametrize("longest", [4.0, 1.0, 0.3])
 def test_surface_stays_the_same_and_conforms(longest):
     points, triangles = subdivided(POINTS, TRIANGLES, evenly(longest), FLAT)
     assert areas(points, triangles).sum() == pytest.approx(areas(POINTS, TRIANGLES).sum())
-    edges, sides = edges_of(triangles, SIDES)
+    edges, sides = edges_of(triangles, OPPOSITE_SIDES)
     count = np.bincount(sides.ravel())
     # edges of three triangles are the parts of the one in which three meet
     length = norm(points[edges[:, 0]] - points[edges[:, 1]])
@@ -77,13 +78,13 @@ def test_slender_strips_become_ladders():
     # 16 rungs or more to a strip, two triangles to a rung, and no vertex between its sides
     assert 24 * 16 * 2 <= len(triangles) <= 24 * 32 * 2
     assert np.allclose(np.hypot(points[:, 0], points[:, 1]), 1.0)
-    edges, _ = edges_of(triangles, SIDES)
+    edges, _ = edges_of(triangles, OPPOSITE_SIDES)
     assert norm(points[edges[:, 0]] - points[edges[:, 1]]).min() >= 0.99 * width
 
 
 def test_parts_are_even():
     points, triangles = subdivided(POINTS, TRIANGLES, evenly(1.7), FLAT)
-    edges, sides = edges_of(triangles, SIDES)
+    edges, sides = edges_of(triangles, OPPOSITE_SIDES)
     count = np.bincount(sides.ravel())
     length = norm(points[edges[:, 0]] - points[edges[:, 1]])
     assert length[count == 3] == pytest.approx(np.full(3, 5 / 3), rel=0.01)  # not halves of halves
@@ -97,8 +98,8 @@ def test_lengths_follow_a_field():
         return 0.3 + 0.4 * middles[:, 0]
 
     points, triangles = subdivided(square, halves, longest, FLAT)
-    edges, _ = edges_of(triangles, SIDES)
+    edges, _ = edges_of(triangles, OPPOSITE_SIDES)
     ends = points[edges]
-    assert (norm(ends[:, 1] - ends[:, 0]) <= ACROSS * longest(ends.mean(axis=1))).all()
+    assert (norm(ends[:, 1] - ends[:, 0]) <= LADDER * longest(ends.mean(axis=1))).all()
     fine = (points[:, 0] < 2).mean()
     assert fine > 0.6  # the quarter at the fine side has most of the vertices

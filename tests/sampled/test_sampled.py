@@ -151,7 +151,7 @@ def test_the_tolerance_that_is_reached_is_stated_or_the_skeleton_is_refused(
         return actual(given, times * tolerance, lenient=True)  # type: ignore[arg-type]
 
     monkeypatch.setattr(sampling, "refined", coarse)
-    monkeypatch.setattr(sampling, "FINENESSES", 1)
+    monkeypatch.setattr(sampling, "SAMPLED_FINENESSES", 1)
     monkeypatch.setattr(sampling, "FLOORS", (12.0,))
     rod = decomp.Geometry(decomp.Cylinder((0, 0, 0), (0, 0, 6), 1))
     if held:

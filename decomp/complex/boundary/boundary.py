@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.complex.boundary.boundary_carriers import TURN, CarrierMesh, carrier_mesh
+from decomp.complex.boundary.boundary_carriers import INNER_TURN, CarrierMesh, carrier_mesh
 from decomp.complex.boundary.boundary_classes import FoldedError
 from decomp.complex.boundary.boundary_layout import Layout, layouts
 from decomp.complex.boundary.boundary_pieces import Pieces, boundary_pieces
@@ -33,8 +33,8 @@ from decomp.errors import GeometryError
 from decomp.geometry import Geometry
 from decomp.vectors import Array, Bools, Ints, norm
 
-ROUNDS = 60
-FOLDS = 6
+DENSER_ROUNDS = 60
+UNFOLDING_ROUNDS = 6
 """How often all pieces on a carrier are sampled twice as densely when it comes out folded."""
 
 Side = tuple[int, int]
@@ -112,7 +112,7 @@ class BoundaryMesh:
 
 
 def boundary_mesh(
-    geometry: Geometry, tolerance: float, turn: float = TURN, nodes: Iterable[Array] = ()
+    geometry: Geometry, tolerance: float, turn: float = INNER_TURN, nodes: Iterable[Array] = ()
 ) -> BoundaryMesh:
     """Triangulate the boundaries of all regions from scratch.
 
@@ -127,7 +127,7 @@ def boundary_mesh(
 
 
 def boundary_patches(
-    geometry: Geometry, pieces: Pieces, samples: Samples, turn: float = TURN
+    geometry: Geometry, pieces: Pieces, samples: Samples, turn: float = INNER_TURN
 ) -> BoundaryMesh:
     """Triangulate the boundaries of all regions between sampled pieces.
 
@@ -141,7 +141,7 @@ def boundary_patches(
         GeometryError: the pieces on a carrier cannot be kept apart.
     """
     drawn = layouts(geometry, pieces, samples)
-    for _ in range(FOLDS):
+    for _ in range(UNFOLDING_ROUNDS):
         samples = _uncrossed(drawn, pieces, samples)
         meshes, split = _meshes(drawn, pieces, samples, turn)
         if not split:
@@ -166,7 +166,7 @@ def _meshes(
             if not curved:
                 raise
             split |= curved
-    for _ in range(ROUNDS):
+    for _ in range(DENSER_ROUNDS):
         if split:
             break
         more, split = _shared(meshes, pieces, samples)
@@ -182,7 +182,7 @@ def _meshes(
 
 def _uncrossed(drawn: Sequence[Layout], pieces: Pieces, samples: Samples) -> Samples:
     """Samples with more of them where segments cross on some carrier."""
-    for _ in range(ROUNDS):
+    for _ in range(DENSER_ROUNDS):
         split: set[tuple[int, int]] = _doubled(pieces, samples)
         for layout in drawn:
             split |= _crossed(layout, pieces, samples)

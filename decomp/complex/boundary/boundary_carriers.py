@@ -15,11 +15,15 @@ from decomp.complex.plane.planar import SparseError, triangulate
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, Ints, dot, frame, norm
 
-TURN = np.radians(75)
+INNER_TURN = np.radians(75)
 """The most that normals differ along an edge inside a face, more than on samples of its border."""
-ROUNDS = 40
+INNER_ROUNDS = 40
 CLEARANCE = 0.35
 """Points inside keep this part of their spacing away from samples of pieces."""
+OPPOSITE_POLE = 1e-6
+"""Middles nearer to the centre than this part of the radius are opposite the pole."""
+AT_TIP = 1e-9
+"""An edge's end nearer to a cone's tip than this part of the edge is the tip."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +49,7 @@ class CarrierMesh:
 
 
 def carrier_mesh(
-    layout: Layout, samples: Samples, interior: Array | None = None, turn: float = TURN
+    layout: Layout, samples: Samples, interior: Array | None = None, turn: float = INNER_TURN
 ) -> CarrierMesh:
     """Triangulate the faces on a carrier.
 
@@ -67,7 +71,7 @@ def carrier_mesh(
     extra = _first_points(layout, known) if interior is None else interior
     if layout.pole is not None and not (extra == layout.pole).all(axis=1).any():
         extra = np.concatenate([layout.pole[None], extra])
-    for attempt in range(ROUNDS):
+    for attempt in range(INNER_ROUNDS):
         points = np.concatenate([known, extra])
         try:
             triangles, corners = _triangulated(layout, points, segments)
@@ -169,7 +173,7 @@ def _midpoints(layout: Layout, points: Array, triangles: Ints, corners: Array) -
     away = (both / 2 - centre)[:, 1:]
     # the point opposite the pole: any way round
     x, _ = frame(layout.carrier.normal(layout.pole))
-    away = np.where(norm(away)[..., None] > 1e-6 * radius, away, x)
+    away = np.where(norm(away)[..., None] > OPPOSITE_POLE * radius, away, x)
     result[fan, 1:] = layout.carrier.project(centre + radius * away / norm(away)[..., None])
     return np.asarray(result)
 
@@ -195,7 +199,7 @@ def _bent(
     angle = np.arccos(np.clip(dot(layout.carrier.normal(a), layout.carrier.normal(b)), -1, 1))
     tip = layout.carrier.tip
     if tip is not None:
-        reach = 1e-9 * norm(a - b)
+        reach = AT_TIP * norm(a - b)
         angle = np.where((norm(a - tip) <= reach) | (norm(b - tip) <= reach), 0.0, angle)
     bad = first[angle > turn]
     order = np.argsort(-angle[angle > turn], kind="stable")
@@ -212,4 +216,4 @@ def spread(points: Array, gaps: Iterable[float]) -> Array:
     return np.array(taken).reshape(-1, 3)
 
 
-__all__ = ["TURN", "CarrierMesh", "FoldedError", "carrier_mesh", "spread"]
+__all__ = ["INNER_TURN", "CarrierMesh", "FoldedError", "carrier_mesh", "spread"]

@@ -19,10 +19,13 @@ from decomp.csg.halfspaces import HalfSpaceForm
 from decomp.curves import crossings
 from decomp.curves.base import Curve
 from decomp.geometry import Geometry
+from decomp.tolerance import ENLARGED, SAME_PARAMETER
 from decomp.vectors import Array, Ints, norm
 
 WELD = 10
 """Points closer than this many tolerances are one, as in the boundary itself."""
+SAME_CUT = 1e-6
+"""Cuts of a curve at one node are one if they are closer than this part of its period."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +176,7 @@ def _on_some(point: Array, uses: Sequence[_Use], tolerance: float) -> bool:
     t = float(curve.parameter(point))
     if float(norm(curve.point(np.array(t)) - point)) > tolerance:
         return False
-    slack = 1e-9 * curve.period
+    slack = SAME_PARAMETER * curve.period
     shifts = (-curve.period, 0.0, curve.period) if curve.closed else (0.0,)
     return any(
         use.edge.closed or use.edge.start - slack <= t + s <= use.edge.end + slack
@@ -196,12 +199,12 @@ def _cuts(
                 for t, v in zip(ends, use.edge.vertices, strict=True)
             ]
     centre, radius = curve.bounding_ball()
-    near = np.flatnonzero(norm(nodes - centre) <= radius * (1 + 1e-9) + tolerance)
+    near = np.flatnonzero(norm(nodes - centre) <= radius * (1 + ENLARGED) + tolerance)
     t = np.atleast_1d(curve.parameter(nodes[near])) if len(near) else np.empty(0)
     on = norm(curve.point(t) - nodes[near]) <= tolerance
     found += list(zip(t[on].tolist(), near[on].tolist(), strict=True))
 
-    same = 1e-6 * curve.period
+    same = SAME_CUT * curve.period
     kept: list[tuple[float, int]] = []
     for t0, node in found:
         gaps = [abs(t0 - t1) for t1, other in kept if other == node]
@@ -223,7 +226,7 @@ def _run(
         stops = [(float(t), int(n), k) for k, (t, n) in enumerate(zip(cuts, at, strict=True))]
         stops.append((stops[0][0] + curve.period, stops[0][1], 0))
     else:
-        same = 1e-6 * curve.period
+        same = SAME_CUT * curve.period
         turns = (-1, 0, 1, 2) if curve.closed else (0,)
         inner = sorted(
             (float(t) + turn * curve.period, int(n), k)

@@ -14,6 +14,8 @@ from decomp.vectors import Array, Ints, norm
 CURVE_TURN = np.radians(60)
 """The most that a curve turns from one sample to the next."""
 DENSE = 257
+NO_MORE = 1e-6
+"""For an excess below this part of all that is to be sampled there is no further sample."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +85,7 @@ def piece_samples(piece: Piece, tolerance: float) -> Array:
     weight = np.maximum(np.sqrt(turn * step / (8 * tolerance)), turn / CURVE_TURN)
     total = np.concatenate([[0.0], np.cumsum(weight)])
     least = 3 if piece.closed else 1
-    count = max(least, int(np.ceil(total[-1] * (1 - 1e-6))))
+    count = max(least, int(np.ceil(total[-1] * (1 - NO_MORE))))
     while True:
         found = np.interp(np.linspace(0, total[-1], count + 1), total, t)
         found[[0, -1]] = piece.start, piece.end

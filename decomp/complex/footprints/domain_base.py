@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from decomp.complex.plane.planar import PLANE, Period
 from decomp.vectors import Array
 
+AT_APEX = 1e-8
+"""Vertices nearer to a cone's apex than this part of the diagonal are at it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Domain(ABC):

@@ -30,7 +30,7 @@ FAN = 7
 """Directions tried at an edge's end to see whether balls touch there."""
 AT_END = 1e-6
 """Part of `reach` from an end within which a foot counts as the end."""
-HALVINGS = 60
+DIRECTION_HALVINGS = 60
 
 
 class EndKind(Enum):
@@ -97,7 +97,7 @@ class EdgeDomain(Domain):
         t = self.edge.start + along / self._speed
         normal, side, spread = self.frames(t)
         low, high = np.zeros_like(spread), spread
-        for _ in range(HALVINGS):
+        for _ in range(DIRECTION_HALVINGS):
             middle = (low + high) / 2
             below = self._height(along, middle, spread, None) < uv[..., 1]
             low, high = np.where(below, middle, low), np.where(below, high, middle)

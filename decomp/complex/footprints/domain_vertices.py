@@ -7,16 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from decomp.boundary.topology import Edge, RegionBoundary
-from decomp.complex.footprints.domain_base import Domain
+from decomp.complex.footprints.domain_base import AT_APEX, Domain
 from decomp.errors import GeometryError
 from decomp.vectors import Array, Bools, cross, dot, frame, norm
 
-SECTOR = 6
+SECTOR_DIRECTIONS = 6
 """Directions by which the corner of a face is represented."""
-SLOPE = 1e-6
+NORMAL_SLOPE = 1e-6
 """A direction that makes an angle this little below 90 degrees with a surface is normal to it."""
-WIDE = 0.2
+WIDE_COSINE = 0.2
 """Cosine of the angle from the middle direction up to which straight pictures are drawn."""
+NO_MIDDLE = 1e-6
+"""Length of the sum of normals below which it has no direction."""
+BESIDE_VERTEX = 1e-4
+"""An apex has no normal: it is taken this part of an edge beside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +71,7 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
         carrier = boundary.carriers[face.carrier]
         assert carrier.tip_axis is not None
         # the balls that touch an apex lie in the cone of normals about the axis
-        wide = -float(carrier.normal(face.point) @ carrier.tip_axis) > WIDE
+        wide = -float(carrier.normal(face.point) @ carrier.tip_axis) > WIDE_COSINE
         return VertexDomain(vertex.point, -carrier.tip_axis, wide)
     normals = []
     for k in vertex.edges:
@@ -78,10 +82,10 @@ def vertex_domain(boundary: RegionBoundary, index: int) -> VertexDomain:
             )
     rays = np.array(normals)
     total = rays.sum(axis=0)
-    if float(norm(total)) < 1e-6:
+    if float(norm(total)) < NO_MIDDLE:
         raise GeometryError("the normals at the vertex {at} have no middle", at=vertex.point)
     middle = total / norm(total)
-    return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE).all()))
+    return VertexDomain(vertex.point, middle, bool((rays @ middle > WIDE_COSINE).all()))
 
 
 def reaches_into(boundary: RegionBoundary, index: int, directions: Array) -> Bools:
@@ -95,7 +99,7 @@ def reaches_into(boundary: RegionBoundary, index: int, directions: Array) -> Boo
         directions: unit vectors (k, 3).
     """
     surface = tangent_directions(boundary, index)
-    return np.asarray((directions @ surface.T <= SLOPE).all(axis=1))
+    return np.asarray((directions @ surface.T <= NORMAL_SLOPE).all(axis=1))
 
 
 def tangent_directions(boundary: RegionBoundary, index: int) -> Array:
@@ -153,7 +157,7 @@ def _corners(boundary: RegionBoundary, index: int, number: int) -> list[_Corner]
 def _sector(corner: _Corner) -> Array:
     """Unit vectors from a corner's first edge to its last."""
     side = cross(corner.normal, corner.first)
-    turn = np.linspace(0.0, corner.angle, SECTOR)[:, None]
+    turn = np.linspace(0.0, corner.angle, SECTOR_DIRECTIONS)[:, None]
     return np.asarray(np.cos(turn) * corner.first + np.sin(turn) * side)
 
 
@@ -169,9 +173,9 @@ def _near(boundary: RegionBoundary, edge: int, vertex: int) -> Array:
     e = boundary.edges[edge]
     point = boundary.vertices[vertex].point
     apexes = [c.tip for c in boundary.carriers if c.tip is not None]
-    if not any(norm(a - point) <= 1e-8 * boundary.diagonal for a in apexes):
+    if not any(norm(a - point) <= AT_APEX * boundary.diagonal for a in apexes):
         return point
     assert e.vertices is not None
-    share = 1e-4 if e.vertices[0] == vertex else 1 - 1e-4
+    share = BESIDE_VERTEX if e.vertices[0] == vertex else 1 - BESIDE_VERTEX
     t = np.array(e.start + share * (e.end - e.start))
     return e.curve.point(e.curve.wrapped(t))

@@ -13,7 +13,7 @@ import numpy as np
 from decomp.boundary.topology import Face, RegionBoundary
 from decomp.carriers import Carrier
 from decomp.carriers.charts import Chart
-from decomp.complex.footprints.domain_base import Domain
+from decomp.complex.footprints.domain_base import AT_APEX, Domain
 from decomp.complex.footprints.domain_edges import edge_domain
 from decomp.complex.footprints.domain_vertices import vertex_domain
 from decomp.complex.plane.planar import Period
@@ -83,6 +83,6 @@ def face_domain(boundary: RegionBoundary, face: Face, pole: Array | None = None)
         at = carrier.tip
         index = next(k for k, f in enumerate(boundary.faces) if f is face)
         corners = [v.point for v in boundary.vertices if index in v.faces]
-        tip = any(norm(p - at) <= 1e-8 * boundary.diagonal for p in corners)
+        tip = any(norm(p - at) <= AT_APEX * boundary.diagonal for p in corners)
         reach = float(norm(face.point - at))
     return FaceDomain(carrier, face.outward, carrier.chart(tip, reach, pole))

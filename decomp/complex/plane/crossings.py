@@ -13,7 +13,7 @@ Period = tuple[float | None, float | None]
 """Periods of the two coordinates of a domain, None where there is none."""
 
 PLANE: Period = (None, None)
-ROUNDING = 8 * np.finfo(np.float64).eps
+AREA_ROUNDING = 8 * np.finfo(np.float64).eps
 """Twice a triangle's area counts as zero below this multiple of its terms."""
 
 
@@ -90,7 +90,7 @@ def _side(ax: float, ay: float, bx: float, by: float, px: float, py: float) -> i
     # coordinates may have been rounded when they were laid side by side
     size = max(abs(ax), abs(ay), abs(bx), abs(by), abs(px), abs(py))
     reach = abs(bx - ax) + abs(by - ay) + abs(px - ax) + abs(py - ay)
-    if abs(left - right) <= ROUNDING * (abs(left) + abs(right) + size * reach):
+    if abs(left - right) <= AREA_ROUNDING * (abs(left) + abs(right) + size * reach):
         return 0
     return 1 if left > right else -1
 

@@ -29,7 +29,7 @@ from decomp.vectors import Array, Bools, Ints, norm
 BITS = 22
 """Bits of a vertex number in an edge's key."""
 
-NEAR = 0.9
+SURELY_WITHIN = 0.9
 """What is within this part of the limit is sure to be within the limit itself."""
 
 PAIR = (1 << 2 * BITS) - 1
@@ -271,10 +271,10 @@ class Mesh:
     def check(self) -> bool:
         """Measure what is close to the limit more thoroughly; whether any is beyond it."""
         edges = self.edges
-        self._measure_edges((edges.error > NEAR) & ~edges.checked, thorough=True)
+        self._measure_edges((edges.error > SURELY_WITHIN) & ~edges.checked, thorough=True)
         sides = edges.error[edges.of_half[: 3 * len(self.triangles)]].reshape(-1, 3)
         worst = np.maximum(self.error, sides.max(axis=1))
-        near = np.flatnonzero((worst > NEAR) & ~self.checked)
+        near = np.flatnonzero((worst > SURELY_WITHIN) & ~self.checked)
         corners = self.points[self.triangles[near]]
         error = thorough_errors(self.elements, self.surface[near], corners, samples=10)
         error /= self.allowed[near]

@@ -18,10 +18,12 @@ from decomp.complex.refining.flips import UPRIGHT, flip, next_half
 from decomp.complex.refining.split import spans
 from decomp.vectors import Array, Bools, Ints, cross, dot
 
-TRIES = 3
+NEIGHBOURS_TRIED = 3
 """So many neighbours, the most promising ones, are tried for each vertex."""
 
-ROUNDS = 2000
+COLLAPSING_ROUNDS = 2000
+UNDER_EDGE = 1e-9
+"""A corner lies beyond the edge opposite only if it does by more than this part of the area."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +52,12 @@ def collapse(mesh: Mesh) -> int:
     tried = np.zeros(len(mesh.points), dtype=np.int64)
     around = np.zeros(len(mesh.points), dtype=np.int64)
     total = 0
-    for _ in range(ROUNDS):
+    for _ in range(COLLAPSING_ROUNDS):
         order, starts = stars(mesh)
         now = _signatures(mesh, order, starts)
         tried[now != around] = 0
         around = now
-        able = inner_vertices(mesh, starts) & (tried < TRIES)
+        able = inner_vertices(mesh, starts) & (tried < NEIGHBOURS_TRIED)
         if not able.any():
             break
         count = _round(mesh, able, tried, order, starts)
@@ -98,7 +100,7 @@ def _round(mesh: Mesh, able: Bools, tried: Ints, order: Ints, starts: Ints) -> i
     place = np.arange(len(by)) - np.searchsorted(moves.v[by], moves.v[by])
     pick = by[place == tried[moves.v[by]]]
     hopeless = ~np.isfinite(moves.height[pick])
-    tried[moves.v[pick[hopeless]]] = TRIES
+    tried[moves.v[pick[hopeless]]] = NEIGHBOURS_TRIED
     pick = pick[~hopeless]
 
     # of vertices whose stars touch only one can go
@@ -150,7 +152,7 @@ def _moves(mesh: Mesh, able: Bools, order: Ints, starts: Ints) -> Moves:
     b, c, d = p[u[move]] - a, p[w] - a, p[x] - a
     area = dot(cross(c - b, d - b), n)
     least = np.minimum(np.minimum(dot(cross(b, c), n), dot(cross(c, d), n)), dot(cross(d, b), n))
-    under = least >= -1e-9 * np.abs(area)
+    under = least >= -UNDER_EDGE * np.abs(area)
     volume = np.abs(dot(b, cross(c, d)))
     size = np.sqrt(dot(n, n))
     height = np.full(len(v), np.inf)

@@ -13,7 +13,7 @@ from decomp.complex.many_elements import Elements
 from decomp.complex.model import Complex
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-INSIDE = np.array(
+POINTS_INSIDE = np.array(
     [
         [1 / 3, 1 / 3, 1 / 3],
         [0.8, 0.1, 0.1],
@@ -29,7 +29,9 @@ INSIDE = np.array(
 Corners themselves are left out: the surface may have no normal there, as a cone at its apex.
 """
 
-_FIT = np.linalg.pinv(np.roll(INSIDE, -1, axis=1) * np.roll(INSIDE, 1, axis=1))
+_FIT = np.linalg.pinv(np.roll(POINTS_INSIDE, -1, axis=1) * np.roll(POINTS_INSIDE, 1, axis=1))
+NO_AREA = 1e-9
+"""A triangle has no normal if its double area is below this part of its longest side squared."""
 
 
 def _along() -> Array:
@@ -44,8 +46,8 @@ def _along() -> Array:
 
 _ALONG = _along()
 
-UPRIGHT = 4
-"""At so many of the first points of `INSIDE` normals are compared."""
+NORMALS_COMPARED = 4
+"""At so many of the first points of `POINTS_INSIDE` normals are compared."""
 
 
 def triangle_normals(corners: Array) -> Array:
@@ -57,7 +59,7 @@ def triangle_normals(corners: Array) -> Array:
     double = cross(sides[:, 0], sides[:, 1])
     size = norm(double)
     longest = dot(sides, sides).max(axis=1)
-    real = size > 1e-9 * longest
+    real = size > NO_AREA * longest
     return np.where(real[:, None], double / np.where(real, size, 1.0)[:, None], 0.0)
 
 
@@ -70,22 +72,24 @@ def triangle_errors(elements: Elements, numbers: Ints, corners: Array) -> tuple[
     count = len(corners)
     if count == 0:
         return np.empty(0), np.empty(0)
-    flat = np.einsum("sj,kjx->skx", INSIDE, corners)
+    flat = np.einsum("sj,kjx->skx", POINTS_INSIDE, corners)
     points = flat.reshape(-1, 3)
-    placed = elements.place(np.tile(numbers, len(INSIDE)), points)
-    away = (placed - points).reshape(len(INSIDE), count, 3)
+    placed = elements.place(np.tile(numbers, len(POINTS_INSIDE)), points)
+    away = (placed - points).reshape(len(POINTS_INSIDE), count, 3)
     own = triangle_normals(corners)
     error = np.maximum(norm(away).max(axis=0), _greatest(dot(away, own)))
-    normals = elements.normal(np.tile(numbers, UPRIGHT), placed[: UPRIGHT * count])
-    upright = dot(normals.reshape(UPRIGHT, count, 3), own).min(axis=0)
+    normals = elements.normal(
+        np.tile(numbers, NORMALS_COMPARED), placed[: NORMALS_COMPARED * count]
+    )
+    upright = dot(normals.reshape(NORMALS_COMPARED, count, 3), own).min(axis=0)
     return error, upright
 
 
 def _greatest(heights: Array) -> Array:
     """The greatest height (k,) inside triangles over which a surface has given heights (7, k).
 
-    The heights at `INSIDE` are fitted by a sum of q_ij b_i b_j in barycentric coordinates b, which
-    vanishes at the corners. It is stationary where b_i is proportional to
+    The heights at `POINTS_INSIDE` are fitted by a sum of q_ij b_i b_j in barycentric coordinates
+    b, which vanishes at the corners. It is stationary where b_i is proportional to
     q_jk (q_ij + q_ik - q_jk); with squared sides for q, that is the circumcentre. As the fit is
     not exact, what exceeds the greatest height on the sides is taken a tenth higher.
     """

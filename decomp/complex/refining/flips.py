@@ -18,13 +18,13 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 UPRIGHT = 0.2
 """A triangle is upright enough where its normal and the surface's have this inner product."""
 
-LEVEL = 0.02
+LEANING_ALIKE = 0.02
 """Changes of leaning by less than this do not count where the folded area shrinks."""
 
 THINNEST = 1e-6
 """Triangles with a smaller angle, in radians, are none: their vertices lie on a straight line."""
 
-ROUNDS = 60
+FLIPPING_ROUNDS = 60
 
 
 def flip(mesh: Mesh) -> int:
@@ -33,7 +33,7 @@ def flip(mesh: Mesh) -> int:
     Only edges of triangles that are fresh are looked at; afterwards none is.
     """
     total = 0
-    for _ in range(ROUNDS):
+    for _ in range(FLIPPING_ROUNDS):
         mesh.measure()
         count = _round(mesh)
         if count == 0:
@@ -126,7 +126,7 @@ def _round(mesh: Mesh) -> int:
     angle_gain = new_angle[k] - old_angle[k]
     fold_gain = sum(_folded(mesh, mesh.triangles[t[k]], mesh.upright[t[k]]) for t in (t1, t2))
     fold_gain = fold_gain - _folded(mesh, new1[k], upright1) - _folded(mesh, new2[k], upright2)
-    good = (lean_gain > 1e-3) | ((fold_gain > 0) & (lean_gain > -LEVEL))
+    good = (lean_gain > 1e-3) | ((fold_gain > 0) & (lean_gain > -LEANING_ALIKE))
     good |= (
         (lean_gain >= 0)
         & ((over_gain > 1e-3) | ((over_gain >= 0) & (angle_gain > 1e-2)))

@@ -32,11 +32,11 @@ from decomp.vectors import Array, Ints, positive
 
 Progress: TypeAlias = Callable[[int], None]
 
-ROUNDS: Final = 300
+SPLITTING_BATCHES: Final = 300
 """Batches of splits after which a surface counts as one that cannot be followed."""
-LAST: Final = 4
+THOROUGH_ROUNDS: Final = 4
 """So often a lenient mesh is measured thoroughly."""
-PATIENCE: Final = 12
+LEANING_ROUNDS: Final = 12
 """So often triangles that only lean are split."""
 GROWING: Final = 12
 """Where folds have grown in so many batches in a row, with the largest error as it was, it is
@@ -80,7 +80,7 @@ def refined(
     _check(mesh)
     _split(mesh, progress)
     collapse(mesh)
-    left = LAST
+    left = THOROUGH_ROUNDS
     while mesh.check() and (not lenient or left):
         left -= 1
         _split(mesh, progress)
@@ -89,9 +89,9 @@ def refined(
 
 def _split(mesh: Mesh, progress: Progress | None) -> None:
     """Split and flip until all errors are within the limit and no triangle leans."""
-    patience = PATIENCE
+    patience = LEANING_ROUNDS
     history: list[tuple[int, float]] = []
-    for _ in range(ROUNDS):
+    for _ in range(SPLITTING_BATCHES):
         flip(mesh)
         if not mesh.lenient:
             _check_growth(mesh, history)

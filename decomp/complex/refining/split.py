@@ -13,6 +13,8 @@ from decomp.vectors import Array, Bools, Ints, norm
 
 FOLDED = -0.5
 """A triangle whose normal has no more than this inner product with its surface's is turned over."""
+STRAIGHT = 1e-9
+"""An arc of less (radians) is taken for one of so much: its radius is a divisor."""
 
 
 def split_lines(mesh: Mesh) -> int:
@@ -184,7 +186,7 @@ def _cuts(mesh: Mesh, edge: Ints, element: Ints) -> Array:
     points = edges.middle[edge].copy()
     allowed = edges.allowed[edge]
     angle = np.minimum(4 * np.arctan2(2 * edges.error[edge] * allowed, length), 0.9 * np.pi)
-    radius = length / (2 * np.sin(np.maximum(angle, 1e-9) / 2))
+    radius = length / (2 * np.sin(np.maximum(angle, STRAIGHT) / 2))
     wanted = allowed / _bulge(mesh)[edge]
     parts = np.ceil(angle / (2 * np.arccos(np.maximum(1 - wanted / radius, 0.0))) - 0.02)
     odd = np.flatnonzero((parts > 2) & (parts % 2 == 1))

@@ -17,7 +17,7 @@ from decomp.curves.intersect.isolines import zeros
 from decomp.curves.intersect.pulled import Pulled
 from decomp.vectors import Array
 
-SAME = 1e-9
+AT_ONCE = 1e-9
 """Events whose angles differ by no more than this happen at once."""
 
 INTERIOR = 10
@@ -70,12 +70,12 @@ def network(f: Pulled, chart: Chart, b: Carrier, events: list[Event]) -> Network
 def _groups(events: list[Event]) -> list[list[Event]]:
     """Events in order of u, those at one angle together; the first group holds u = 0."""
     turn = 2 * np.pi
-    ordered = sorted(events, key=lambda e: 0.0 if turn - e.u % turn < SAME else e.u % turn)
+    ordered = sorted(events, key=lambda e: 0.0 if turn - e.u % turn < AT_ONCE else e.u % turn)
     groups: list[list[Event]] = []
     last = -1.0
     for e in ordered:
-        u = 0.0 if turn - e.u % turn < SAME else e.u % turn
-        if groups and u - last <= SAME:
+        u = 0.0 if turn - e.u % turn < AT_ONCE else e.u % turn
+        if groups and u - last <= AT_ONCE:
             groups[-1].append(e)
         else:
             groups.append([e])

@@ -10,11 +10,15 @@ from decomp.curves.newton import cross_direction, onto_pair
 from decomp.curves.traced import TracedCurve, sample_tangents
 from decomp.vectors import Array, dot, norm
 
-TURN = 0.1
+SAMPLES_TURN = 0.1
 """Angle in radians by which neighbouring samples may turn."""
 
-ROUNDS = 12
-MOST = 20_000
+SPACING_ROUNDS = 12
+MOST_SAMPLES = 20_000
+OTHER_NAPPE = 1e-6
+"""Samples farther off a carrier than this part of the size are on a cone's other nappe."""
+REPEATED = 1e-12
+"""A sample is the one before again if they are closer than this part of the whole curve."""
 
 
 def chains(net: Network, a: Carrier, b: Carrier, size: float) -> list[TracedCurve]:
@@ -22,7 +26,7 @@ def chains(net: Network, a: Carrier, b: Carrier, size: float) -> list[TracedCurv
     left = set(range(len(net.arcs)))
     for number in list(left):
         middle = net.arcs[number][len(net.arcs[number]) // 2]
-        if abs(float(b.signed_distance(middle))) > 1e-6 * size:
+        if abs(float(b.signed_distance(middle))) > OTHER_NAPPE * size:
             left.discard(number)  # on the other nappe of a cone
     curves = []
     ends = [(n, side) for n in sorted(left) for side in (0, 1)]
@@ -72,7 +76,7 @@ def traced(
 ) -> TracedCurve | None:
     """Bring rough samples onto both carriers, space them by turning, and make the curve."""
     step = norm(np.diff(p, axis=0))
-    p = p[np.concatenate([[True], step > 1e-12 * step.sum()])]
+    p = p[np.concatenate([[True], step > REPEATED * step.sum()])]
     if len(p) < 3:
         return None
     fixed = np.zeros(len(p), dtype=bool)
@@ -82,10 +86,10 @@ def traced(
     p = p.copy()
     p[free] = onto_pair(a, b, p[free], along)
     p = _thinned(a, b, p, closed, singular)
-    for _ in range(ROUNDS):
+    for _ in range(SPACING_ROUNDS):
         t = _tangents(a, b, p, closed, singular)
         wide = _wide(p, t, closed)
-        if not wide.any() or len(p) > MOST:
+        if not wide.any() or len(p) > MOST_SAMPLES:
             break
         p = _halved(a, b, p, t, closed, wide)
     if len(p) < 3:
@@ -105,7 +109,7 @@ def _wide(p: Array, t: Array, closed: bool) -> Array:
     chord = q - p
     chord = chord / norm(chord)[:, None]
     bend = np.maximum(norm(chord - t), norm(chord - v))
-    return np.asarray((bend > TURN / 2) | (norm(t - v) > TURN))
+    return np.asarray((bend > SAMPLES_TURN / 2) | (norm(t - v) > SAMPLES_TURN))
 
 
 def _halved(a: Carrier, b: Carrier, p: Array, t: Array, closed: bool, wide: Array) -> Array:
@@ -126,7 +130,9 @@ def _thinned(a: Carrier, b: Carrier, p: Array, closed: bool, singular: tuple[boo
     t = _tangents(a, b, p, closed, singular)
     step = norm(np.diff(p, axis=0))
     turn = np.arccos(np.clip(dot(t[1:], t[:-1]), -1.0, 1.0))
-    measure = np.concatenate([[0.0], np.cumsum(np.maximum(turn / TURN, 12 * step / step.sum()))])
+    measure = np.concatenate(
+        [[0.0], np.cumsum(np.maximum(turn / SAMPLES_TURN, 12 * step / step.sum()))]
+    )
     level = np.floor(1.25 * measure)
     keep = np.concatenate([[True], np.diff(level) > 0])
     keep[-1] = not closed

@@ -17,6 +17,9 @@ from decomp.carriers import Carrier, Cone, Cylinder, EllipticCylinder, Sphere, T
 from decomp.curves.intersect.result import Window
 from decomp.vectors import Array, dot, frame, norm
 
+SKEW = 1e-12
+"""Square of the sine of the angle between axes below which they count as parallel."""
+
 
 @dataclass(frozen=True, eq=False)
 class Chart(ABC):
@@ -133,7 +136,7 @@ def _extent(a: Cylinder | EllipticCylinder, b: Carrier, window: Window) -> tuple
         away = a.point - b.point
         away = away - dot(away, b.axis) * b.axis
         square = float(dot(across, across))
-        if square > 1e-12:
+        if square > SKEW:
             at = -float(dot(away, across)) / square
             rest = (1.05 * (a.width + b.width)) ** 2 - float(norm(away + at * across)) ** 2
             if rest > 0:

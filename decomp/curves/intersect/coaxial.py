@@ -14,6 +14,7 @@ import numpy as np
 from decomp.carriers import Carrier, Cone, Cylinder, Plane, Sphere, Torus
 from decomp.curves.circle import Circle
 from decomp.curves.intersect.result import Intersection, PairCurve, Window, points
+from decomp.tolerance import PARALLEL
 from decomp.vectors import Array, dot, frame, norm
 
 
@@ -132,7 +133,7 @@ def _lines(one: Profile, two: Profile) -> list[tuple[float, float, bool]]:
     assert two.along is not None
     (ux, uz), (vx, vz) = one.along, two.along
     det = ux * vz - uz * vx
-    if abs(det) < 1e-12:
+    if abs(det) < PARALLEL:
         return []
     dx, dz = two.at[0] - one.at[0], two.at[1] - one.at[1]
     s = (dx * vz - dz * vx) / det

@@ -9,12 +9,32 @@ import numpy as np
 
 from decomp.carriers import Carrier
 from decomp.curves.intersect.charts import Chart
-from decomp.curves.intersect.isolines import fold_candidates, zeros
+from decomp.curves.intersect.isolines import DOUBLE, SAME_ISOLINE, fold_candidates, zeros
 from decomp.curves.intersect.pulled import Pulled
 from decomp.curves.intersect.result import Window
 from decomp.curves.polynomial import polynomial_roots
 from decomp.errors import ContactError
+from decomp.tolerance import TINY
 from decomp.vectors import Array, norm
+
+AT_BORDER = 1e-9
+"""Roots are on the unit circle if their logarithm is smaller; halves of double ones are not."""
+ALONG_BORDER = 1e-6
+"""Newton steps along the border that are longer (radians) are not taken."""
+LEVEL_BRANCH = 1e-9
+"""Slope against the border below which a branch runs along it."""
+STEPS_SETTLED = 1e-14
+"""Steps in u and v below which Newton's method has come to rest."""
+NEARLY, ROUGHLY = 1e-9, 1e-3
+"""Its last steps in u and v may be so long where F_u = F_v = 0, and where F = F_v = 0."""
+HIGHER_ORDER = 1e-7
+"""Part of the larger curvature below which the smaller one is zero."""
+GAP_KNOWN = 1e-15
+"""Carriers that touch are apart by this part of the size at least, as far as is known."""
+SAME_POINT = 1e-7
+"""Folds nearer to a node than this part of the radius are of it."""
+SAME_FOLD = 1e-10
+"""Folds nearer to each other than this part of the radius are one."""
 
 
 class Kind(Enum):
@@ -48,11 +68,11 @@ class Event:
     zone: float = 0.0
 
 
-ROOM = 0.3
+NEWTON_ROOM = 0.3
 """How far Newton's method may lead away from an approximate event."""
 
 
-FLAT = 1e-5
+FLAT_FOLD = 1e-5
 """Second derivative of F (whose coefficients are of size 1) that counts as zero at a fold."""
 
 
@@ -78,19 +98,22 @@ def exits(f: Pulled, chart: Chart, apex: bool) -> list[Event]:
         z = z[np.abs(z) > 0]
         off = np.abs(np.log(np.abs(z)))
         if apex and kind is Kind.LOW:
-            double = _doubles(np.angle(z[off < 1e-5]))
+            double = _doubles(np.angle(z[off < DOUBLE]))
             found += [_cusp(chart, u) for u in double]
-            other = [not any(abs(np.sin((u - w) / 2)) < 1e-4 for w in double) for u in np.angle(z)]
+            other = [
+                not any(abs(np.sin((u - w) / 2)) < SAME_ISOLINE for w in double)
+                for u in np.angle(z)
+            ]
             z, off = z[other], off[other]
-        if np.any((off > 1e-9) & (off < 1e-5)):
+        if np.any((off > AT_BORDER) & (off < DOUBLE)):
             raise UnresolvedError
-        for u in np.angle(z[off <= 1e-9]):
+        for u in np.angle(z[off <= AT_BORDER]):
             u = float(u)
             for _ in range(3):
                 value, slope = (float(d) for d in f.derivatives(np.array(u), np.array(v))[:2])
-                u -= value / slope if abs(value) < 1e-6 * abs(slope) else 0.0
+                u -= value / slope if abs(value) < ALONG_BORDER * abs(slope) else 0.0
             d = f.derivatives(np.array(u), np.array(v))
-            if abs(float(d[2])) < 1e-9 * (abs(float(d[1])) + 1e-300):
+            if abs(float(d[2])) < LEVEL_BRANCH * (abs(float(d[1])) + TINY):
                 raise UnresolvedError
             rising = float(d[1]) * float(d[2]) < 0
             p = chart.point(np.array(u), np.array(v))
@@ -105,7 +128,7 @@ def _doubles(u: Array) -> list[float]:
     for i in range(len(u)):
         for j in range(i):
             gap = float(np.angle(np.exp(1j * (u[i] - u[j]))))
-            if abs(gap) < 1e-5:
+            if abs(gap) < DOUBLE:
                 means.append(float(u[j]) + gap / 2)
     return means
 
@@ -145,12 +168,12 @@ def _newton(
         du = -(g0 * fvv - row[1] * g1) / det
         dv = -(row[0] * g1 - fuv * g0) / det
         u, v = u + du, v + dv
-        if abs(u - start[0]) > ROOM or abs(v - start[1]) > ROOM:
+        if abs(u - start[0]) > NEWTON_ROOM or abs(v - start[1]) > NEWTON_ROOM:
             return None
-        if abs(du) + abs(dv) < 1e-14:
+        if abs(du) + abs(dv) < STEPS_SETTLED:
             break
     else:
-        if abs(du) + abs(dv) > (1e-9 if critical else 1e-3):
+        if abs(du) + abs(dv) > (NEARLY if critical else ROUGHLY):
             return None
     return u, v
 
@@ -198,13 +221,13 @@ def _singular(
     _, _, _, fuu, fuv, fvv = (float(d) for d in f.derivatives(np.array(u), np.array(v)))
     hessian = np.array([[fuu / hu**2, fuv / hu / hv], [fuv / hu / hv, fvv / hv**2]])
     least, most = sorted(np.linalg.eigvalsh(hessian), key=abs)
-    if abs(least) <= 1e-7 * abs(most):
+    if abs(least) <= HIGHER_ORDER * abs(most):
         raise _higher_order(a, b, p)
     if least * most > 0:
         contacts.append(p)
         return
     size = window.radius
-    zone = 10 * float(np.sqrt(max(gap, 1e-15 * size) * size * abs(most / least)))
+    zone = 10 * float(np.sqrt(max(gap, GAP_KNOWN * size) * size * abs(most / least)))
     events.append(Event(Kind.NODE, u, v, p, zone=zone / hu))
 
 
@@ -230,13 +253,13 @@ def _fold(
     u, v = _wrapped(chart, *place)
     _, fu, _, _, _, fvv = (float(d) for d in f.derivatives(np.array(u), np.array(v)))
     rising = fvv * fu < 0
-    flat = abs(fvv) < FLAT
+    flat = abs(fvv) < FLAT_FOLD
     p = chart.point(np.array(u), np.array(v))
     hu, _ = chart.metric(u, v)
     near = 10 * float(np.sqrt(2 * window.tolerance * window.radius))
     for q, zone in marks:
         gap = float(norm(p - q))
-        if gap <= max(zone * hu, 1e-7 * window.radius) or (zone == 0.0 and gap <= near):
+        if gap <= max(zone * hu, SAME_POINT * window.radius) or (zone == 0.0 and gap <= near):
             return
     if abs(fu) < SINGULAR_SLOPE:
         raise _higher_order(a, b, p)
@@ -247,7 +270,7 @@ def _fold(
         u, v, rising = better
         p = chart.point(np.array(u), np.array(v))
     for e in events:
-        if e.kind is Kind.FOLD and float(norm(p - e.point)) <= 1e-10 * window.radius:
+        if e.kind is Kind.FOLD and float(norm(p - e.point)) <= SAME_FOLD * window.radius:
             return
     events.append(Event(Kind.FOLD, u, v, p, rising=rising))
 

@@ -26,6 +26,7 @@ from decomp.curves.intersect.events import (
     folds_and_nodes,
     on_isoline,
 )
+from decomp.curves.intersect.isolines import SAME_ISOLINE
 from decomp.curves.intersect.nappe import on_nappe
 from decomp.curves.intersect.pulled import Pulled, pulled
 from decomp.curves.intersect.result import (
@@ -43,8 +44,10 @@ from decomp.curves.traced import TracedCurve
 from decomp.errors import ContactError
 from decomp.vectors import Array, dot, norm
 
-TURNS = (0.7345, 1.9213, 0.2817, 2.6431, 1.3579)
+CHART_TURNS = (0.7345, 1.9213, 0.2817, 2.6431, 1.3579)
 """Angles at which the chart is cut, tried in turn: any generic numbers."""
+HELD = 1e-5
+"""F vanishes on an isoline if it is below this part of its largest coefficient."""
 
 
 RANK = {"torus": 0, "cylinder": 1, "elliptic cylinder": 2, "cone": 3}
@@ -59,7 +62,7 @@ def general(a: Carrier, b: Carrier, window: Window) -> Intersection:
     """
     reason = ContactError(f"{a.kind} and {b.kind} touch in a way that cannot be resolved")
     for chart_carrier, other in _orders(a, b, window):
-        for turn in TURNS:
+        for turn in CHART_TURNS:
             try:
                 return _resolve(chart_carrier, other, window, turn)
             except UnresolvedError:
@@ -158,14 +161,14 @@ def _whole_isolines(f: Pulled, chart: Chart, b: Carrier, window: Window) -> list
         gap = np.abs(b.signed_distance(chart.point(np.full(33, u), v)))
         if (gap.min() if isinstance(b, Cone) else gap.max()) > window.tolerance:
             continue
-        if all(abs(np.sin((u - w) / 2)) > 1e-4 for w in kept):
+        if all(abs(np.sin((u - w) / 2)) > SAME_ISOLINE for w in kept):
             kept.append(u)
     return kept
 
 
 def _holds(f: Pulled, u: float) -> bool:
     """Whether F still vanishes on the isoline u."""
-    return bool(np.abs(f.columns(np.array([u]))).max() <= 1e-5 * np.abs(f.c).max())
+    return bool(np.abs(f.columns(np.array([u]))).max() <= HELD * np.abs(f.c).max())
 
 
 def _isoline(chart: Chart, u: float, window: Window) -> Curve | None:

@@ -12,6 +12,7 @@ import numpy as np
 from decomp.curves.intersect.pulled import Pulled
 from decomp.curves.polynomial import Complex, polynomial_roots
 from decomp.errors import ContactError
+from decomp.tolerance import TINY
 from decomp.vectors import Array
 
 REAL = 1e-6
@@ -19,6 +20,12 @@ REAL = 1e-6
 
 DOUBLE = 1e-5
 """Zeros nearer than this, and so near to the unit circle, are a double one but for rounding."""
+NOT_REAL = 1e-13
+"""A discriminant below zero by no more than this part of its terms is a double root."""
+NO_LEAD = 1e-14
+"""A leading coefficient below this part of the largest is made that: its roots are far off."""
+SAME_ISOLINE = 1e-4
+"""Isolines are one, but for rounding of a double zero, if half their angle has a lesser sine."""
 
 
 def zeros(f: Pulled, u: Array, low: float, high: float, count: int | None = None) -> list[Array]:
@@ -36,7 +43,7 @@ def zeros(f: Pulled, u: Array, low: float, high: float, count: int | None = None
     if not f.round:
         return [_inside(v, low, high, count) for v in _quadratic(columns.real)]
     w = _all_roots(columns)
-    off = np.abs(np.log(np.maximum(np.abs(w), 1e-300)))
+    off = np.abs(np.log(np.maximum(np.abs(w), TINY)))
     v = low + np.mod(np.angle(w) - low, 2 * np.pi)
     if count is None:
         return [np.sort(v[i, off[i] < REAL]) for i in range(len(u))]
@@ -60,7 +67,7 @@ def _quadratic(c: Array) -> Array:
             return np.stack([-c[:, 0] / c[:, 1], np.full(len(c), np.nan)], axis=1)
     c0, c1, c2 = c.T
     root = c1**2 - 4 * c0 * c2
-    real = root > -1e-13 * (c1**2 + np.abs(4 * c0 * c2))
+    real = root > -NOT_REAL * (c1**2 + np.abs(4 * c0 * c2))
     root = np.where(real, np.sqrt(np.maximum(root, 0)), np.nan)
     q = -(c1 + np.where(c1 < 0, -1.0, 1.0) * root) / 2
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -73,8 +80,8 @@ def _all_roots(columns: Complex) -> Complex:
     companion = np.zeros((k, n, n), complex)
     companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
     lead = columns[:, -1:]
-    small = np.abs(lead) < 1e-14 * np.abs(columns).max(axis=1, keepdims=True)
-    lead = np.where(small, 1e-14 * np.abs(columns).max(axis=1, keepdims=True) + 1e-300, lead)
+    small = np.abs(lead) < NO_LEAD * np.abs(columns).max(axis=1, keepdims=True)
+    lead = np.where(small, NO_LEAD * np.abs(columns).max(axis=1, keepdims=True) + TINY, lead)
     companion[:, :, -1] = -columns[:, :-1] / lead
     return np.asarray(np.linalg.eigvals(companion), dtype=complex)
 
@@ -115,7 +122,7 @@ def fold_candidates(f: Pulled, width: float) -> list[tuple[float, float]]:
 def _refuse_double_zero(f: Pulled) -> None:
     """F is the same on all isolines: zeros are circles, and a double one a contact along one."""
     w = polynomial_roots(f.columns(np.zeros(1))[0])
-    w = w[np.abs(np.log(np.maximum(np.abs(w), 1e-300))) < DOUBLE]
+    w = w[np.abs(np.log(np.maximum(np.abs(w), TINY))) < DOUBLE]
     gaps = np.abs(w[:, None] - w[None])[np.triu_indices(len(w), 1)]
     if (gaps < DOUBLE).any():
         raise ContactError("two carriers touch along a circle that cannot be resolved")

@@ -25,11 +25,23 @@ from decomp.curves.intersect.result import Intersection, PairCurve, Window, poin
 from decomp.curves.newton import cross_direction
 from decomp.vectors import Array, norm
 
-RANK = 1e-11
+EIGENVALUE_RANK = 1e-11
 """Eigenvalues below this part of the largest count as zero."""
 
 TOUCH = 1e-6
 """Sine of the angle between the carriers below which they touch."""
+DOUBLE_PLANE = 1e-9
+"""Part of the largest eigenvalue below which the second is zero: two planes are one."""
+NO_QUARTIC = 1e-15
+"""Coefficients below which a determinant vanishes: all members of the pencil are singular."""
+NO_RANGE = 1e-12
+"""Singular values below which a direction is in the kernel of both quadrics."""
+REAL_ROOT = 1e-4
+"""Imaginary part, relative to the root, up to which a multiple root counts as real."""
+SINGULAR_STEP = 1e-9
+"""Singular values below this part of the largest are left out of a Newton step."""
+NO_NORMAL = 1e-9
+"""Part of a plane's coefficients below which its normal is zero: it is the plane at infinity."""
 
 
 def plane_pair(a: Carrier, b: Carrier, window: Window) -> Intersection | None:
@@ -113,9 +125,9 @@ def _planes(qa: Array, qb: Array) -> list[Array] | None:
         values, vectors = np.linalg.eigh(q)
         order = np.argsort(-np.abs(values))
         values, vectors = values[order], vectors[:, order]
-        if abs(values[2]) > RANK * abs(values[0]):
+        if abs(values[2]) > EIGENVALUE_RANK * abs(values[0]):
             continue
-        if abs(values[1]) <= 1e-9 * abs(values[0]):
+        if abs(values[1]) <= DOUBLE_PLANE * abs(values[0]):
             return [vectors[:, 0]]
         if values[0] * values[1] < 0:
             p = np.sqrt(abs(values[0])) * vectors[:, 0]
@@ -134,7 +146,7 @@ def _members(qa: Array, qb: Array) -> list[float]:
     spectrum = np.fft.fft(c) / 8
     poly = spectrum[[-2, -1, 0, 1, 2]]
     found = [-1.0, 1.0]
-    if np.abs(poly).max() > 1e-15:
+    if np.abs(poly).max() > NO_QUARTIC:
         roots = np.roots(poly[::-1])
         for k in (1, 2, 3, 4):
             for group in combinations(roots, min(k, len(roots))):
@@ -151,7 +163,7 @@ def _members(qa: Array, qb: Array) -> list[float]:
 def _singular_members(qa: Array, qb: Array) -> list[float]:
     """Candidates if all members are singular (common apex): the same in the common range."""
     _, s, vt = np.linalg.svd(np.concatenate([qa, qb]))
-    basis = vt[s > 1e-12].T
+    basis = vt[s > NO_RANGE].T
     if basis.shape[1] != 3:
         return []
     ra, rb = (basis.T @ q @ basis for q in (qa, qb))
@@ -161,7 +173,7 @@ def _singular_members(qa: Array, qb: Array) -> list[float]:
     v = np.stack([np.cos(t) ** (3 - k) * np.sin(t) ** k for k in range(4)], axis=1)
     poly = np.linalg.lstsq(v, c, rcond=None)[0]
     roots = np.roots(poly[::-1])
-    found = [float(z.real) for z in roots if abs(z.imag) < 1e-4 * (1 + abs(z))]
+    found = [float(z.real) for z in roots if abs(z.imag) < REAL_ROOT * (1 + abs(z))]
     return found + [float((p + q).real / 2) for p, q in combinations(roots, 2)]
 
 
@@ -177,7 +189,7 @@ def _improved(qa: Array, qb: Array, x: float, p: Array, q: Array, sign: float) -
         for i in range(4):
             e = np.eye(4)[i]
             columns.append(-sign * ((np.outer(e, p) + np.outer(p, e)) / 2)[upper])
-        step = np.linalg.lstsq(np.stack(columns, axis=1), -rest, rcond=1e-9)[0]
+        step = np.linalg.lstsq(np.stack(columns, axis=1), -rest, rcond=SINGULAR_STEP)[0]
         x, p, q = x + step[0], p + step[1:5], q + step[5:]
     return [p, q]
 
@@ -185,7 +197,7 @@ def _improved(qa: Array, qb: Array, x: float, p: Array, q: Array, sign: float) -
 def _plane(row: Array, origin: Array, unit: float) -> Plane | None:
     """The plane row . (p, 1) = 0 of the scaled coordinates; None for the one at infinity."""
     size = float(norm(row[:3]))
-    if size <= 1e-9 * float(norm(row)):
+    if size <= NO_NORMAL * float(norm(row)):
         return None
     n = row[:3] / size
     return Plane(origin - row[3] / size * unit * n, n)

@@ -21,10 +21,13 @@ from decomp.curves.intersect.result import (
     ray,
 )
 from decomp.curves.parabola import Parabola
+from decomp.tolerance import EXACTLY_PARALLEL
 from decomp.vectors import Array, dot, frame, norm
 
 LARGE = 30.0
 """Conics with an axis beyond this many window radii are traced inside the window instead."""
+ROUND = 1e-14
+"""Half-axes are equal if they differ by less than this part: the ellipse is a circle."""
 
 
 def plane_plane(a: Plane, b: Plane, window: Window) -> Intersection:
@@ -84,7 +87,7 @@ def plane_cylinder(plane: Plane, cylinder: Cylinder, window: Window) -> Intersec
 
 def ellipse(centre: Array, x: Array, y: Array, a: float, b: float) -> Curve:
     """An ellipse, or a circle if the axes are equal."""
-    if abs(a - b) <= 1e-14 * max(a, b):
+    if abs(a - b) <= ROUND * max(a, b):
         return Circle(centre, x, y, (a + b) / 2)
     return Ellipse(centre, x, y, a, b)
 
@@ -102,7 +105,7 @@ def plane_cone(plane: Plane, cone: Cone, window: Window) -> Intersection | None:
     c = float(dot(n, k))
     m = n - c * k
     s = float(norm(m))
-    m = m / s if s > 1e-15 else frame(k)[0]
+    m = m / s if s > EXACTLY_PARALLEL else frame(k)[0]
     d = float(plane.signed_distance(cone.apex))
     e1, e2 = c * ca + s * sa, c * ca - s * sa
     reach = window.reach(cone.apex)
@@ -173,7 +176,7 @@ def _through_apex(
 def _axes(direction: Array, n: Array) -> tuple[Array, Array]:
     """Unit vectors across n, the first along `direction` as far as it has one."""
     size = float(norm(direction))
-    x = direction / size if size > 1e-15 else frame(n)[0]
+    x = direction / size if size > EXACTLY_PARALLEL else frame(n)[0]
     x = x - dot(x, n) * n
     x = x / norm(x)
     return x, np.cross(n, x)

@@ -24,6 +24,7 @@ from decomp.curves.polynomial import Complex
 from decomp.vectors import Array
 
 SMALL = 1e-13
+"""Coefficients below this part of the largest are zero."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from decomp.curves.base import Curve
 from decomp.curves.line import Line
 from decomp.vectors import Array, dot, norm
 
-EXACT = 1e-13
+ROUNDING_ERROR = 1e-13
 """Deviations below this part of the size are rounding errors."""
 
 NO_POINTS: Array = np.empty((0, 3))
@@ -56,7 +56,7 @@ class Window:
     @property
     def exact(self) -> float:
         """Lengths that are rounding errors."""
-        return EXACT * (self.radius + float(np.abs(self.centre).max()))
+        return ROUNDING_ERROR * (self.radius + float(np.abs(self.centre).max()))
 
     def reach(self, p: Array) -> float:
         """Distance from p to the far side of the ball."""

@@ -14,7 +14,8 @@ import numpy as np
 from scipy.sparse import coo_array  # type: ignore[import-untyped]
 from scipy.sparse.csgraph import connected_components  # type: ignore[import-untyped]
 
-from decomp.meshes.curve_edges import EDGES, curve_edges, is_point
+from decomp.complex.model import SIDES
+from decomp.meshes.curve_edges import curve_edges, is_point
 from decomp.meshes.incidence import incidence, row_keys
 from decomp.meshes.model import GroupKind, TetMesh
 from decomp.vectors import Ints
@@ -120,7 +121,7 @@ def _connected(links: Ints, corner: np.ndarray) -> Ints:
 
 def _surfaces(mesh: TetMesh, surface: Ints, ends: Ints, curve: Ints) -> dict[int, list[int]]:
     """The curves that bound each surface."""
-    edges = mesh.triangles[:, EDGES].reshape(-1, 2)
+    edges = mesh.triangles[:, SIDES].reshape(-1, 2)
     keys = row_keys(np.concatenate([ends, edges]))
     known, own = keys[: len(ends)], keys[len(ends) :]
     order = np.argsort(known)

@@ -18,7 +18,7 @@ from decomp.meshing.surface.layout import Layout
 from decomp.meshing.surface.surface import MeshSurface
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
-FACING = -0.97
+ALONGSIDE = -0.97
 """Faces lie along each other where the cosine between the ways out of a layer is below this."""
 
 Walls = tuple[tuple[int, int], ...]
@@ -105,7 +105,7 @@ def across(layer: Layer, elements: Elements, corners: Array, points: Array) -> A
             *(_nearest(wall, elements, corners, points) for wall in layer.walls), strict=True
         )
     )
-    facing = dot(ways[0], ways[1]) < FACING
+    facing = dot(ways[0], ways[1]) < ALONGSIDE
     return Across(feet, dot(feet[1] - feet[0], ways[1]), gaps, facing)
 
 

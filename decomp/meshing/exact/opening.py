@@ -14,27 +14,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
-from decomp.geometry import Geometry
 from decomp.meshes.faces import EDGES, OPPOSITE, edges_of, faces_of, least_dihedral
 from decomp.meshing.exact.layers import Across, Layer, across, layers
 from decomp.meshing.exact.targets import LINE, placed
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Bools, Ints
 
-REACH = 2.5
+FACE_REACH = 2.5
 """Nodes that belong on a face are within so many tolerances of it."""
-CLOSE = 0.35
+END_CLOSE = 0.35
 """An edge's end is moved onto the curve if it is nearer than this part of the edge, else the edge
 is cut."""
-SOUND = 2.0
+SOUND_OPENED = 2.0
 """Degrees. Tetrahedra have no lesser dihedral angle afterwards, unless they had one before."""
-PASSES = 4
+PARTING_PASSES = 4
 """How often nodes are tried to be split."""
-SAME = 1e-10
+IN_CONTACT = 1e-10
 """Walls are in contact where they are less than this part of the diagonal apart."""
 IN, ON, BEYOND = 1, 0, -1
 """Where nodes are: in a layer, in contact (or not concerned), beyond the contact."""
@@ -44,23 +41,14 @@ class Opener:
     """Opens the layers of one model's meshes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        tolerance: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        tolerance: float,
-    ) -> None:
-        self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._elements, self._tolerance = elements, tolerance
-        self._layers = layers(surface, plan)
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._cells = followed.geometry, followed.cells
+        self._plan, self._elements = followed.plan, followed.elements
+        self._tolerance = followed.tolerance
+        self._layers = layers(followed.surface, followed.plan)
 
     def opened(self, points: Array, tets: Ints, part: Ints) -> tuple[Array, Ints, Ints]:
         """Open all layers.
@@ -104,7 +92,7 @@ class Opener:
         Those in a layer are close to both its walls; beyond the contact edges may be longer.
         """
         found = self._across(layer, nodes)
-        same, reach = SAME * self._geometry.diagonal, REACH * self._tolerance
+        same, reach = IN_CONTACT * self._geometry.diagonal, FACE_REACH * self._tolerance
         side = np.full(len(found.thickness), ON)
         within, beyond = found.gaps.max(axis=0) < reach, found.gaps.min(axis=0) < reach
         side[(found.thickness > same) & within & found.facing] = IN
@@ -131,7 +119,7 @@ class Opener:
                 continue
             place = patch.points[one] + share[row] * (patch.points[two] - patch.points[one])
             end = one if share[row] < 0.5 else two
-            if gap[row] < CLOSE and patch.move(end, self._on_line(layer, patch.points[end])):
+            if gap[row] < END_CLOSE and patch.move(end, self._on_line(layer, patch.points[end])):
                 continue
             patch.cut(one, two, self._on_line(layer, place), place)
 
@@ -170,7 +158,7 @@ class Opener:
         nodes = nodes[patch.side[nodes] == IN]
         found = self._across(layer, patch.points[nodes])
         order = np.argsort(-found.thickness)
-        for _ in range(PASSES):
+        for _ in range(PARTING_PASSES):
             split = False
             for row in order[patch.side[nodes[order]] == IN].tolist():
                 star = np.flatnonzero((patch.tets == nodes[row]).any(axis=1))
@@ -264,7 +252,7 @@ class _Patch:
 
 def _sound(points: Array, tets: Ints, before: Array, old: Ints) -> bool:
     """Whether tetrahedra may take the place of others."""
-    least = min(SOUND, float(least_dihedral(before, old).min()))
+    least = min(SOUND_OPENED, float(least_dihedral(before, old).min()))
     return bool(least_dihedral(points, tets).min() >= least)
 
 

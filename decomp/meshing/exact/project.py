@@ -20,17 +20,19 @@ from decomp.vectors import Array, Bools, Ints, norm
 
 KEPT = 0.5
 """A tetrahedron's least dihedral angle may fall to this part of what it was."""
-GOOD = 9.0
+UNSPOILT = 9.0
 """A tetrahedron with this least dihedral angle (degrees) is not spoilt."""
-LAST = 2.0
+LAST_ANGLE = 2.0
 """The least that a node's exact place may cost in the end."""
-ROUNDS = 6
-FLOORS = (1.0, 1.0, 0.6, 0.6, 0.3)
+SETTLING_ROUNDS = 6
+ANGLE_FLOORS = (1.0, 1.0, 0.6, 0.6, 0.3)
 """What the angles asked for are multiplied by, try after try."""
 WORST = 15.0
 """Nodes of tetrahedra below this angle are moved to better places."""
-STEPS = (0.25, 0.1, 0.04)
+MOVING_STEPS = (0.25, 0.1, 0.04)
 """How far they are moved, in parts of the shortest edge at them."""
+BETTER = 1e-9
+"""Least angles (degrees) have grown only if they have by so much."""
 
 
 class Projector:
@@ -64,7 +66,7 @@ class Projector:
         self._around = order // 4
         self._first = np.searchsorted(tets.reshape(-1)[order], np.arange(len(points) + 1))
         self._quality = least_dihedral(self._points, tets)
-        self._floor = np.minimum(KEPT * self._quality, GOOD)
+        self._floor = np.minimum(KEPT * self._quality, UNSPOILT)
         self._dimension = np.array(targets.dimension)
         self._element = np.array(targets.element)
         self._done = np.zeros(len(targets.nodes), dtype=np.bool_)
@@ -78,7 +80,7 @@ class Projector:
         """Move all nodes; those that are not on all that they belong to, ascending."""
         complete = np.array(self._targets.complete)
         self._move_together(np.arange(len(self._targets.nodes)))
-        for factor in FLOORS:
+        for factor in ANGLE_FLOORS:
             if self._done.all():
                 break
             self._better(self._near_failed())
@@ -87,7 +89,7 @@ class Projector:
         complete[failed] = False
         self._dimension[failed] = SURFACE
         self._element[failed] = self._targets.surface[failed]
-        self._move_one_by_one(failed, FLOORS[-1])
+        self._move_one_by_one(failed, ANGLE_FLOORS[-1])
         return np.sort(self._targets.nodes[~complete])
 
     def smooth(self, longest: Array) -> None:
@@ -96,7 +98,7 @@ class Projector:
         Args:
             longest: (e,) what edges, in the order of `edges_of`, are not drawn out beyond.
         """
-        for _ in range(ROUNDS):
+        for _ in range(SETTLING_ROUNDS):
             bad = np.flatnonzero(self._quality < WORST)
             if not len(bad) or not self._better(np.unique(self._tets[bad])):
                 break
@@ -153,7 +155,7 @@ class Projector:
             self._points[node] = goal
             quality = least_dihedral(self._points, self._tets[around])
             wanted = np.minimum(
-                np.maximum(factor * self._floor[around], LAST), self._quality[around] + 1e-9
+                np.maximum(factor * self._floor[around], LAST_ANGLE), self._quality[around] + BETTER
             )
             if (quality >= wanted).all() and (quality > 0).all():
                 self._quality[around] = quality
@@ -178,7 +180,7 @@ class Projector:
         nodes_left = nodes[movable]
         if not len(nodes_left):
             return 0
-        for step in STEPS:
+        for step in MOVING_STEPS:
             ways = self._random.normal(size=(len(nodes_left), 3))
             ways /= norm(ways)[:, None]
             wanted = self._points[nodes_left] + self._reach(nodes_left)[:, None] * step * ways

@@ -17,7 +17,7 @@ from decomp.vectors import Array, Ints
 
 AT = np.concatenate([np.eye(4), FOUR, POINTS])
 """Where Jacobians are looked at: corners, and the points of the rules of degree 2 and 5."""
-LEAST = 0.1
+LEAST_VOLUME = 0.1
 """They stay above this part of the straight tetrahedron's."""
 
 
@@ -50,7 +50,7 @@ def quadratic(
     curved[rows[good]] = True
     every = np.concatenate([points, middles])
     whole = np.concatenate([tets, of_tet + len(points)], axis=1)
-    allowed = LEAST * jacobians(points, tets)[:, 0]
+    allowed = LEAST_VOLUME * jacobians(points, tets)[:, 0]
     checked = np.flatnonzero(curved[of_tet].any(axis=1))
     while len(checked):
         least = jacobians(every, whole[checked], AT).min(axis=1)

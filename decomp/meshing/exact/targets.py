@@ -15,16 +15,14 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
 from decomp.errors import GeometryError
-from decomp.geometry import Geometry
 from decomp.meshing.naming.tagging import Tagged
-from decomp.meshing.surface.cells import CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import locate
+from decomp.meshing.surface.followed import Followed
 from decomp.vectors import Array, Bools, Ints, norm
 
-BESIDE = 1e-9
+BESIDE_SHEET = 1e-9
 """A sheet's two sides are asked this part of the model's diagonal off it."""
-NEAR_CORNER = 6.0
+CORNER_REACH = 6.0
 """A corner takes nodes within so many tolerances."""
 SURFACE, LINE, CORNER = 2, 1, 0
 
@@ -70,35 +68,28 @@ class Finder:
     """Finds the targets of nodes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        tolerance: how far nodes are off at first.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        tolerance: float,
-    ) -> None:
-        self._geometry, self._cells = geometry, cells
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._cells = followed.geometry, followed.cells
+        self._plan, self._elements = followed.plan, followed.elements
+        self._tolerance = followed.tolerance
         self._sites = {
-            patch: sites for region in surface.regions for patch, sites in region.sheets.items()
+            patch: sites
+            for region in followed.surface.regions
+            for patch, sites in region.sheets.items()
         }
-        self._plan, self._elements, self._tolerance = plan, elements, tolerance
         self._group: dict[int, tuple[int, ...]] = {
-            patch: own for own in plan.between.values() for patch in own
+            patch: own for own in self._plan.between.values() for patch in own
         }
         self._lines: dict[frozenset[int], list[int]] = {}
-        self._corners = [self._kinds(around) for around in plan.around_corner]
+        self._corners = [self._kinds(around) for around in self._plan.around_corner]
         self._corners_of: dict[int, list[int]] = {}
         for number, kinds in enumerate(self._corners):
             for kind in kinds:
                 self._corners_of.setdefault(kind, []).append(number)
-        for number, around in enumerate(plan.around_line):
+        for number, around in enumerate(self._plan.around_line):
             kinds = self._kinds(around)
             if len(kinds) > 1:
                 self._lines.setdefault(kinds, []).append(number)
@@ -184,7 +175,7 @@ class Finder:
             return np.full(len(places), -1, dtype=np.int64)
         at = self._plan.complex.points[self._plan.corners[rows]]
         gap, which = cKDTree(at).query(places)
-        near = gap < NEAR_CORNER * self._tolerance
+        near = gap < CORNER_REACH * self._tolerance
         return np.asarray(np.where(near, rows[which], -1), dtype=np.int64)
 
     def _lines_like(self, kinds: frozenset[int]) -> list[int]:
@@ -226,7 +217,7 @@ class Finder:
 
     def _parts(self, sites: tuple[int, int], surfaces: Ints, on: Array) -> Bools:
         """Whether one of two sites is the nearest on one side of surfaces, the other beyond."""
-        way = BESIDE * self._geometry.diagonal * self._elements.normal(surfaces, on)
+        way = BESIDE_SHEET * self._geometry.diagonal * self._elements.normal(surfaces, on)
         sides = np.concatenate([on - way, on + way])
         near = locate(self._geometry, self._cells, sides).site.reshape(2, -1)
         return np.asarray((np.sort(near, axis=0) == np.sort(sites)[:, None]).all(axis=0))

@@ -32,15 +32,15 @@ from decomp.geometry import Geometry
 from decomp.meshing.sizing.sizes import PART_OF_REGION, FarEnd, Wanted, region_sizes
 from decomp.vectors import Array, norm
 
-ROOM = 3.0
+END_ROOM = 3.0
 """The end is brought to so many times the radius of all that is inside it."""
 WORTH = 3.0
 """It is left where it is unless it comes nearer by this factor."""
-COARSE = 0.17
+SHORTEST_SWEPT = 0.17
 """Edges shorter than this part of the way to the end are not for a sweep: its own are longer."""
-TIGHT = 0.7
+NEAR_END_EDGES = 0.7
 """Edges of the near end are at most this part of the length asked for, for they get diagonals."""
-SAME = 1e-9
+SAME_RELATIVE = 1e-9
 """Relative: volumes, and places in parts of the diagonal, that differ by less are the same."""
 
 
@@ -109,11 +109,11 @@ def brought_near(geometry: Geometry, wanted: Wanted) -> Nearer | None:
     centre = inside.mean(axis=0)
     radius = float(norm(inside - centre).max())
     way = end.way_from(centre)
-    factor = way / (ROOM * radius)
+    factor = way / (END_ROOM * radius)
     size = _size(geometry, end, wanted)
-    if not factor > WORTH or size < COARSE * way:
+    if not factor > WORTH or size < SHORTEST_SWEPT * way:
         return None
-    model = _moved(geometry.model, end.carriers, centre, factor, SAME * geometry.diagonal)
+    model = _moved(geometry.model, end.carriers, centre, factor, SAME_RELATIVE * geometry.diagonal)
     if model is None:
         return None
     near = Geometry(model)
@@ -122,7 +122,9 @@ def brought_near(geometry: Geometry, wanted: Wanted) -> Nearer | None:
     boundary = geometry.regions[end.region]
     names = tuple(boundary.faces[face].name for face in end.faces)
     far = FarEnd(
-        boundary.name, TIGHT * size / factor, frozenset((boundary.name, name) for name in names)
+        boundary.name,
+        NEAR_END_EDGES * size / factor,
+        frozenset((boundary.name, name) for name in names),
     )
     return Nearer(near, replace(wanted, far=far), end.region, names, centre, factor, size)
 
@@ -141,7 +143,7 @@ def _end(geometry: Geometry) -> _End | None:
     """The faces that enclose all else, if they are of the right kinds."""
     bounds = np.array([region.bounds for region in geometry.regions])
     low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
-    slack = SAME * geometry.diagonal
+    slack = SAME_RELATIVE * geometry.diagonal
     for number, boundary in enumerate(geometry.regions):
         for faces in _components(boundary):
             carriers = tuple(boundary.carriers[boundary.faces[face].carrier] for face in faces)
@@ -248,7 +250,7 @@ def _is_among(carrier: Carrier, others: Sequence[Carrier], slack: float) -> bool
         if isinstance(carrier, Plane) and isinstance(other, Plane):
             turned = norm(np.cross(carrier.normal_vector, other.normal_vector))
             away = abs(float(other.signed_distance(carrier.foot(np.zeros((1, 3))))[0]))
-            if turned < SAME and away < slack:
+            if turned < SAME_RELATIVE and away < slack:
                 return True
         if isinstance(carrier, Sphere) and isinstance(other, Sphere):
             away = float(norm(carrier.centre - other.centre))
@@ -266,7 +268,7 @@ def _is_same(far: Geometry, near: Geometry, end: _End, factor: float) -> bool:
         if [face.name for face in one.faces] != [face.name for face in two.faces]:
             return False
         left = one.volume - (gone if number == end.region else 0.0)
-        slack = SAME * max(abs(one.volume), end.volume if number == end.region else 0.0)
+        slack = SAME_RELATIVE * max(abs(one.volume), end.volume if number == end.region else 0.0)
         if one.euler != two.euler or abs(left - two.volume) > slack:
             return False
     return True

@@ -16,10 +16,10 @@ from decomp.meshes.faces import EDGES, TRIANGLE_EDGES, edges_of
 from decomp.meshes.model import Group, GroupKind, TetMesh
 from decomp.meshes.quality import volumes
 from decomp.meshing.far.nearer import Nearer
-from decomp.meshing.repairs.shortening import LONGEST
+from decomp.meshing.repairs.shortening import LONGEST_EDGE
 from decomp.vectors import Array, Ints, norm
 
-GROWTH = (1.28, 1.22, 1.17, 1.13, 1.1)
+LAYER_GROWTH = (1.28, 1.22, 1.17, 1.13, 1.1)
 """Layers grow by the first of these factors with which no edge is too long, else by the last."""
 
 TALLEST = 2.5
@@ -70,7 +70,7 @@ def swept(mesh: TetMesh, given: Nearer, groups: Sequence[Group]) -> TetMesh:
         made = _layers(mesh, first, given, growth)
         ends, _ = edges_of(made[1], EDGES)
         longest = norm(made[0][ends[:, 0]] - made[0][ends[:, 1]]).max()
-        if longest <= LONGEST * given.size:
+        if longest <= LONGEST_EDGE * given.size:
             break
     points, new, lengths, last = made
     # nodes of the near end that are off it are off the far one
@@ -103,7 +103,7 @@ def _growths(front: _Front) -> list[float]:
     ends = np.sort(front.triangles[:, TRIANGLE_EDGES].reshape(-1, 2), axis=1)
     mean = float(norm(front.places[ends[:, 0]] - front.places[ends[:, 1]]).mean())
     most = 1 + TALLEST * mean / float(norm(front.places).mean())
-    return [growth for growth in GROWTH if growth <= most] or [GROWTH[-1]]
+    return [growth for growth in LAYER_GROWTH if growth <= most] or [LAYER_GROWTH[-1]]
 
 
 def _layers(

@@ -6,16 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from decomp.geometry import Geometry
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
+from decomp.meshing.surface.followed import ASKED_OFF, Followed
 from decomp.skeletons.certificate.distance import TriangleTree, triangle_distance, triangle_tree
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot, norm
 
-ASIDE = 0.5
-"""Nearest faces are asked so many tolerances off triangles, in their region."""
-TURNED = 3.0
+TURNED_COST = 3.0
 """A normal at right angles to a face's counts as much as a distance of so many tolerances."""
 ANY = -2
 
@@ -24,22 +21,13 @@ class BoundaryTags:
     """Finds the patches of boundary triangles.
 
     Args:
-        geometry, surface: of the model.
-        cells: the cells that tetrahedra were classified by.
-        plan: the complex laid out for them.
-        tolerance: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        tolerance: float,
-    ) -> None:
-        self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._tolerance = plan, tolerance
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._surface = followed.geometry, followed.surface
+        self._cells, self._plan = followed.cells, followed.plan
+        self._tolerance = followed.tolerance
         self._trees: dict[int, TriangleTree] = {}
 
     def patches(self, points: Array, triangles: Ints, regions: Ints) -> Ints:
@@ -86,10 +74,10 @@ class BoundaryTags:
         """The face, of some of a region, that each triangle lies on: nearest, and turned alike."""
         corners = points[triangles]
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        normal /= np.maximum(norm(normal), 1e-300)[:, None]
+        normal /= np.maximum(norm(normal), TINY)[:, None]
         middle = corners.mean(axis=1, keepdims=True)
         asked = np.concatenate([middle, middle + 0.7 * (corners - middle)], axis=1)
-        asked = asked - ASIDE * self._tolerance * normal[:, None]
+        asked = asked - ASKED_OFF * self._tolerance * normal[:, None]
         found = locate(self._geometry, self._cells, asked.reshape(-1, 3))
         candidates = self._cells.face[found.site].reshape(-1, 4)
         own = self._cells.region_of(found.part).reshape(-1, 4) == region
@@ -113,4 +101,4 @@ class BoundaryTags:
         carrier = boundary.carriers[boundary.faces[face].carrier]
         outward = boundary.faces[face].outward * carrier.normal(carrier.foot(corners.mean(axis=1)))
         off = np.abs(carrier.signed_distance(corners)).max(axis=1) / self._tolerance
-        return np.asarray(off + TURNED * (1 - dot(outward, normal)))
+        return np.asarray(off + TURNED_COST * (1 - dot(outward, normal)))

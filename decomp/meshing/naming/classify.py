@@ -13,19 +13,20 @@ import numpy as np
 from decomp.geometry import Geometry
 from decomp.meshes.faces import NONE, Faces, faces_of
 from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-TOWARDS = 0.4
+ASKED_TOWARDS = 0.4
 """Points asked lie so far from the middle of a tetrahedron to its vertices."""
-ASIDE = 2.0
+ASKED_ASIDE = 2.0
 """So many tolerances off a triangle its two sides are asked."""
-NEAR_CORNER = 0.8
+ASKED_AT_CORNERS = 0.8
 """It is asked in the middle and so far from there to its corners."""
-ROUNDS = 30
-CORRECTIONS = 3
-FAR = 2.0
+VOTING_ROUNDS = 30
+VOTE_CORRECTIONS = 3
+BOUNDARY_OFF = 2.0
 """Nodes of the boundary are at most so many tolerances off it."""
-OWN = 0.5
+OWN_VOTE = 0.5
 """What a tetrahedron's own points count against all of its neighbours."""
 
 
@@ -63,7 +64,7 @@ def _votes(geometry: Geometry, cells: CellMap, points: Array, tets: Ints) -> Int
     """The cells (m, 5) at each tetrahedron's middle and near its vertices."""
     corners = points[tets]
     middle = corners.mean(axis=1, keepdims=True)
-    asked = np.concatenate([middle, middle + TOWARDS * (corners - middle)], axis=1)
+    asked = np.concatenate([middle, middle + ASKED_TOWARDS * (corners - middle)], axis=1)
     return locate(geometry, cells, asked.reshape(-1, 3)).part.reshape(len(tets), 5)
 
 
@@ -76,9 +77,9 @@ def walls(
     """
     corners = points[triangles]
     normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    way = normal * (ASIDE * tolerance / np.maximum(norm(normal), 1e-300))[:, None]
+    way = normal * (ASKED_ASIDE * tolerance / np.maximum(norm(normal), TINY))[:, None]
     middle = corners.mean(axis=1, keepdims=True)
-    asked = np.concatenate([middle, middle + NEAR_CORNER * (corners - middle)], axis=1)
+    asked = np.concatenate([middle, middle + ASKED_AT_CORNERS * (corners - middle)], axis=1)
     both = np.concatenate([asked - way[:, None], asked + way[:, None]])
     found = locate(geometry, cells, both.reshape(-1, 3)).part.reshape(2, len(triangles), 4)
     return np.asarray((found[0] != found[1]).all(axis=1))
@@ -116,8 +117,8 @@ def _follow(
     doubtful = np.flatnonzero(doubt)
     own_who = np.repeat(doubtful, votes.shape[1])
     own_label = votes[doubtful].reshape(-1)
-    own_weight = np.repeat(np.maximum(around[doubtful], 1e-300) * OWN / 5, votes.shape[1])
-    for turn in range(ROUNDS):
+    own_weight = np.repeat(np.maximum(around[doubtful], TINY) * OWN_VOTE / 5, votes.shape[1])
+    for turn in range(VOTING_ROUNDS):
         asked = np.concatenate([who, own_who])
         said = np.concatenate([label[other], own_label])
         new = _heaviest(asked, said, np.concatenate([weight, own_weight]), len(tets))
@@ -148,11 +149,11 @@ def _correct(
         label: (m,) is changed.
         tolerance: how far the boundary may be off.
     """
-    for _ in range(CORRECTIONS):
+    for _ in range(VOTE_CORRECTIONS):
         region = cells.region_of(np.append(label, OUTSIDE)[faces.tets])
         hull = np.unique(faces.triangles[region[:, 0] != region[:, 1]])
         far = np.zeros(len(points), dtype=np.bool_)
-        far[hull] = geometry.index.nearest(points[hull]).distance > FAR * tolerance
+        far[hull] = geometry.index.nearest(points[hull]).distance > BOUNDARY_OFF * tolerance
         wrong = np.flatnonzero(far[tets].any(axis=1) & (label != middle))
         if not len(wrong):
             return

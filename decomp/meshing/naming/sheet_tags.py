@@ -4,18 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.geometry import Geometry
-from decomp.meshing.surface.cells import CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import locate
+from decomp.meshing.surface.followed import ASKED_OFF, Followed
 from decomp.skeletons.certificate.distance import triangle_distance, triangle_tree
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, norm
 
-ASIDE = 0.5
-"""Feet are asked so many tolerances off triangles, on both sides."""
-JUMP = 4.0
+FEET_JUMP = 4.0
 """Feet jump across a sheet by at least so many tolerances."""
-OWN = 1.2
+OWN_SHEET = 1.2
 """Nodes on the sheet of an edge with itself are at most so many tolerances off it at first."""
 
 
@@ -23,22 +20,13 @@ class SheetTags:
     """Finds the sheets of triangles.
 
     Args:
-        geometry, surface: of the model.
-        cells: the cells that tetrahedra were classified by.
-        plan: the complex laid out for them.
-        tolerance: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        tolerance: float,
-    ) -> None:
-        self._geometry, self._surface, self._cells = geometry, surface, cells
-        self._plan, self._tolerance = plan, tolerance
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._surface = followed.geometry, followed.surface
+        self._cells, self._plan = followed.cells, followed.plan
+        self._tolerance = followed.tolerance
 
     def between(self, points: Array, triangles: Ints, sides: Ints) -> Ints:
         """The sheets of triangles between cells (k, 2) of one region.
@@ -97,7 +85,7 @@ class SheetTags:
 
     def _near(self, points: Array, nodes: Ints, corners: Array) -> Bools:
         """Which of all points are nodes within some tolerances of triangles with given corners."""
-        reach = OWN * self._tolerance
+        reach = OWN_SHEET * self._tolerance
         low, high = corners.min(axis=(0, 1)) - reach, corners.max(axis=(0, 1)) + reach
         nodes = nodes[((points[nodes] >= low) & (points[nodes] <= high)).all(axis=1)]
         near = np.zeros(len(points), dtype=np.bool_)
@@ -123,8 +111,8 @@ class SheetTags:
     def _jumps(self, corners: Array) -> Bools:
         """Whether the feet on both sides of triangles, given by their corners, are far apart."""
         normal = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        way = normal * (ASIDE * self._tolerance / np.maximum(norm(normal), 1e-300))[:, None]
+        way = normal * (ASKED_OFF * self._tolerance / np.maximum(norm(normal), TINY))[:, None]
         middle = corners.mean(axis=1)
         asked = np.concatenate([middle - way, middle + way])
         feet = locate(self._geometry, self._cells, asked).foot.reshape(2, -1, 3)
-        return np.asarray(norm(feet[0] - feet[1]) > JUMP * self._tolerance)
+        return np.asarray(norm(feet[0] - feet[1]) > FEET_JUMP * self._tolerance)

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from decomp.geometry import Geometry
 from decomp.meshes.faces import NONE, Faces
 from decomp.meshing.naming.boundary_tags import BoundaryTags
 from decomp.meshing.naming.sheet_tags import SheetTags
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
+from decomp.meshing.surface.followed import Followed
 from decomp.sites.site import SiteKind
 from decomp.vectors import Array, Bools, Ints
 
@@ -42,26 +40,17 @@ class Tagger:
     """Finds the patches of triangles.
 
     Args:
-        geometry, surface: of the model.
-        cells: the cells that tetrahedra were classified by.
-        plan: the complex laid out for them.
-        tolerance: how far the mesh may be off the complex.
+        followed: what the mesh follows.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        tolerance: float,
-    ) -> None:
-        self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._boundary = BoundaryTags(geometry, surface, cells, plan, tolerance)
-        self._sheets = SheetTags(geometry, surface, cells, plan, tolerance)
+    def __init__(self, followed: Followed) -> None:
+        self._geometry, self._cells = followed.geometry, followed.cells
+        self._plan = followed.plan
+        self._boundary = BoundaryTags(followed)
+        self._sheets = SheetTags(followed)
         self._part_of_face = {
-            (site.region, site.index): int(cells.part[number])
-            for number, site in enumerate(surface.sites)
+            (site.region, site.index): int(followed.cells.part[number])
+            for number, site in enumerate(followed.surface.sites)
             if site.kind is SiteKind.FACE and site.region >= 0
         }
 

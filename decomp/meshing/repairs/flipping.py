@@ -18,7 +18,7 @@ from decomp.vectors import Array, Ints
 
 WANTED = 12.0
 """Tetrahedra with dihedral angles (degrees) below this are exchanged, if it helps."""
-GAIN = 0.2
+ANGLE_GAIN = 0.2
 """By so many degrees the least angle must grow."""
 
 
@@ -137,7 +137,7 @@ class _Patch:
         if not len(new) or self._is_there(old, new):
             return []
         angle = float(least_dihedral(self._points, new).min())
-        if angle < min(self._angle[k] for k in old) + GAIN:
+        if angle < min(self._angle[k] for k in old) + ANGLE_GAIN:
             return []
         return [_Exchange(tuple(old), new, angle)]
 

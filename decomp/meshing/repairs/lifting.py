@@ -13,8 +13,8 @@ from decomp.vectors import Array, Bools, Ints, norm
 
 POOR = 12.0
 """Tetrahedra with a lesser angle (degrees) are made better."""
-PASSES = 8
-WAYS = 60
+LIFTING_PASSES = 8
+WAYS_TRIED = 60
 REACHES = (0.4, 0.15, 0.05)
 """How far from a node it is tried, in parts of the least distance to its neighbours."""
 
@@ -29,7 +29,7 @@ def lifted(points: Array, tets: Ints, free: Bools) -> Array:
     """
     points = np.array(points)
     random = np.random.default_rng(0)
-    for _ in range(PASSES):
+    for _ in range(LIFTING_PASSES):
         poor = least_dihedral(points, tets) < POOR
         nodes = np.unique(tets[poor])
         near = tets[np.isin(tets, nodes).any(axis=1)]
@@ -48,7 +48,7 @@ def _lift(points: Array, tets: Ints, node: int, random: np.random.Generator) -> 
     around = np.unique(star)
     around = around[around != node]
     near = float(norm(points[around] - points[node]).min())
-    ways = random.normal(size=(WAYS, 3))
+    ways = random.normal(size=(WAYS_TRIED, 3))
     ways /= norm(ways)[:, None]
     tried = np.concatenate([points[node] + reach * near * ways for reach in REACHES])
     # one copy of the star for each place: its corners, then the places of the node

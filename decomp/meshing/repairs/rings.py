@@ -13,9 +13,9 @@ import numpy as np
 from decomp.meshes.faces import least_dihedral
 from decomp.vectors import Array, Ints
 
-RING = 7
+LARGEST_RING = 7
 """The most vertices of a ring."""
-EVEN = [p for p in itertools.permutations(range(4)) if np.linalg.det(np.eye(4)[list(p)]) > 0]
+EVEN_ORDERS = [p for p in itertools.permutations(range(4)) if np.linalg.det(np.eye(4)[list(p)]) > 0]
 """Orders of a tetrahedron's vertices that leave it positive."""
 
 
@@ -28,9 +28,9 @@ def ring_around(tets: Sequence[Sequence[int]], a: int, b: int) -> list[int] | No
     """
     after = {}
     for row in tets:
-        order = next(p for p in EVEN if row[p[0]] == a and row[p[1]] == b)
+        order = next(p for p in EVEN_ORDERS if row[p[0]] == a and row[p[1]] == b)
         after[row[order[2]]] = row[order[3]]
-    if not 3 <= len(tets) <= RING or len(after) != len(tets):
+    if not 3 <= len(tets) <= LARGEST_RING or len(after) != len(tets):
         return None
     ring = [next(iter(after))]
     while len(ring) < len(after):

@@ -15,9 +15,9 @@ import numpy as np
 from decomp.meshing.surface.cells import OUTSIDE
 from decomp.vectors import Array, Ints
 
-CUTS = np.linspace(0, 1, 65)[1:-1]
+ALONG_EDGE = np.linspace(0, 1, 65)[1:-1]
 """Where along an edge its passage through the sheet is looked for."""
-NEAREST, FARTHEST = 0.3, 0.7
+CUT_NEAREST, CUT_FARTHEST = 0.3, 0.7
 """An edge is cut between these parts of it, seen from the node."""
 
 Locate = Callable[[Array], Ints]
@@ -62,11 +62,11 @@ def separated(
 
 def _passage(node: Array, other: Array, own: int, locate: Locate) -> Array | None:
     """The point (3,) at which an edge leaves the part of its first end, None if it does not."""
-    found = locate(node + CUTS[:, None] * (other - node))
+    found = locate(node + ALONG_EDGE[:, None] * (other - node))
     held = (found == own) | (found == OUTSIDE)  # on the node's own face
     if held.all():
         return None
-    share = min(max(float(CUTS[int(np.argmin(held))]), NEAREST), FARTHEST)
+    share = min(max(float(ALONG_EDGE[int(np.argmin(held))]), CUT_NEAREST), CUT_FARTHEST)
     return np.asarray(node + share * (other - node))
 
 

@@ -21,13 +21,13 @@ from decomp.meshing.surface.cells import CellMap
 from decomp.meshing.surface.layout import Layout
 from decomp.vectors import Array, Ints, norm
 
-LONGEST = 1.5
+LONGEST_EDGE = 1.5
 """No edge is longer than so many of the length asked in its region, or on its face."""
 CUT = 1.45
 """Edges are cut that are longer than so many: nodes still move afterwards."""
 MEAN, TIGHTER = 1.05, 0.85
 """Where the mean is above the first of what is asked, edges are cut to the second of it."""
-ROUNDS = 12
+SHORTENING_ROUNDS = 12
 """The most passes; each cuts the longest edges, one for each tetrahedron."""
 
 
@@ -146,7 +146,7 @@ def shortened(
     """
     limit = asked.of_tets(points, tets, part)
     triangles, own = tagged.triangles, asked.of_patch[tagged.patches]
-    for _ in range(ROUNDS):
+    for _ in range(SHORTENING_ROUNDS):
         edges = edges_asked(tets, limit, triangles, own)
         excess = edges.excess(points)
         long = np.flatnonzero(excess > CUT)

@@ -14,13 +14,13 @@ import numpy as np
 from decomp.meshes.faces import EDGES, edges_of, least_dihedral
 from decomp.vectors import Array, Bools, Ints, norm
 
-ROUNDS = 40
-TOWARDS = 0.6
+SMOOTHING_ROUNDS = 40
+SMOOTHED_BY = 0.6
 """A node goes this part of the way to the middle of its neighbours."""
 WANDERING = 60
 STRIDE = 0.12
 """Then it is tried in so many places nearby, at most this part of its mean edge away."""
-SOUND = 20.0
+SOUND_SMOOTHED = 20.0
 """The least angle (degrees) at a node may fall, but not below this."""
 
 Place = Callable[[Ints, Array], tuple[Array, Bools]]
@@ -58,13 +58,13 @@ def smoothed(
     random = np.random.default_rng(seed)
     quality = least_dihedral(points, tets)
     length = _means(ends[:, 0], norm(points[ends[:, 0]] - points[ends[:, 1]]), len(points))
-    for turn in range(ROUNDS + WANDERING):
+    for turn in range(SMOOTHING_ROUNDS + WANDERING):
         rank = np.where(movable, random.random(len(points)), -1.0)
         best = np.zeros(len(points))
         np.maximum.at(best, ends[:, 0], rank[ends[:, 1]])
         chosen = rank > best
-        if turn < ROUNDS:
-            wanted = points + TOWARDS * (_middles(points, near) - points)
+        if turn < SMOOTHING_ROUNDS:
+            wanted = points + SMOOTHED_BY * (_middles(points, near) - points)
         else:
             wanted = points + STRIDE * length[:, None] * random.uniform(-1, 1, size=points.shape)
         on = np.flatnonzero(chosen & held)
@@ -78,7 +78,7 @@ def smoothed(
         low, before = np.full(len(points), np.inf), np.full(len(points), np.inf)
         np.minimum.at(low, node, new)
         np.minimum.at(before, node, old)
-        kept = chosen & (gain > 0) & (low >= np.minimum(before, SOUND))
+        kept = chosen & (gain > 0) & (low >= np.minimum(before, SOUND_SMOOTHED))
         own = np.flatnonzero(kept[ends[:, 0]])
         far = norm(moved[ends[own, 0]] - moved[ends[own, 1]]) > most[own]
         kept[ends[own[far], 0]] = False

@@ -11,7 +11,7 @@ from decomp.meshes.cutting import apart, halved
 from decomp.meshes.faces import EDGES, NONE, TRIANGLE_EDGES, edges_of, faces_of
 from decomp.vectors import Array, Ints, norm
 
-ROUNDS = 8
+SPLITTING_ROUNDS = 8
 
 
 def held(tets: Ints, region: Ints) -> tuple[Ints, Ints]:
@@ -44,7 +44,7 @@ def freed(points: Array, tets: Ints, label: Ints, region: Ints) -> tuple[Array, 
     Returns:
         points, tetrahedra and labels.
     """
-    for _ in range(ROUNDS):
+    for _ in range(SPLITTING_ROUNDS):
         bad, hull = held(tets, region[label])
         if not len(bad):
             break

@@ -16,14 +16,15 @@ from decomp.skeletons.balls.balls import balls_at
 from decomp.skeletons.balls.probing import TOWARDS
 from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.balls.shrinking import OSCULATES, TOUCHES
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
-INSIDE = 1e-6
+INSIDE_FACE = 1e-6
 """Points on faces are told from those beyond their edges this part of the diagonal inside."""
-ACROSS = 1e-3
+TOUCHED_ACROSS = 1e-3
 """What a ball that rolls in a bend touches across from its point is asked so many radii off its
 centre, and is touched if it is no farther from this than so many radii more."""
-SAMPLED = 24.0
+CONE_SAMPLES = 24.0
 """How wide a cone is is looked for at points this part of the region's diagonal apart."""
 
 
@@ -58,7 +59,7 @@ class _Balls:
         q = carrier.project(np.unique(some, axis=0))
         inward = -own.outward * carrier.normal(q)
         # triangles reach beyond edges, and at an edge there is no ball
-        least = INSIDE * self.boundary.diagonal
+        least = INSIDE_FACE * self.boundary.diagonal
         inside, depth = self.queries.depth(q + least * inward)
         rows = np.flatnonzero(inside & (depth > least / 2))
         q, inward = q[rows], inward[rows]
@@ -66,12 +67,12 @@ class _Balls:
         centre, foot = balls.centre, np.array(balls.foot)
         good = state == TOUCHES
         bent = np.flatnonzero(state == OSCULATES)
-        away = ACROSS * balls.radius[bent]
+        away = TOUCHED_ACROSS * balls.radius[bent]
         beyond = self.queries.nearest(centre[bent] + away[:, None] * inward[bent])
         foot[bent] = beyond.foot
         off = norm(beyond.foot - centre[bent])
-        good[bent] = (beyond.site >= 0) & (off < (1 + ACROSS) * balls.radius[bent])
-        square = np.maximum(balls.radius, 1e-300) ** 2
+        good[bent] = (beyond.site >= 0) & (off < (1 + TOUCHED_ACROSS) * balls.radius[bent])
+        square = np.maximum(balls.radius, TINY) ** 2
         good &= dot(q - centre, foot - centre) < FACING * square
         rows = np.flatnonzero(good)
         q, centre, foot, radius = q[rows], centre[rows], foot[rows], balls.radius[rows]
@@ -104,7 +105,7 @@ class _OnFace:
         boundary = balls.boundary
         if boundary.carriers[boundary.faces[face].carrier].tip is not None:
             points = balls.surface.complex.points
-            some, _ = samples(points, triangles, boundary.diagonal / SAMPLED)
+            some, _ = samples(points, triangles, boundary.diagonal / CONE_SAMPLES)
             *_, wide, same = balls.facing(face, some)
             self._least = float(wide[same].max(initial=0.0)) / 2
 

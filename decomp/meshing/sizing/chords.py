@@ -9,6 +9,7 @@ from decomp.meshing.sizing.sizes import curvatures
 from decomp.meshing.sizing.wishes import UNKNOWN, Wish, Wishes, joined
 from decomp.meshing.surface.layout import samples
 from decomp.meshing.surface.surface import MeshSurface
+from decomp.tolerance import TINY
 from decomp.vectors import Array
 
 
@@ -29,7 +30,7 @@ def chords(surface: MeshSurface, sizes: Array, rise: float) -> Wishes:
             triangles = np.concatenate([mesh.patches[p].triangles for p, _ in sides])
             some, _ = samples(mesh.points, triangles, size)
             bend = np.abs(curvatures(region.boundary.carriers[face.carrier], some)).max(axis=0)
-            lengths = np.minimum(np.sqrt(8 * rise / np.maximum(bend, 1e-300)), size)
+            lengths = np.minimum(np.sqrt(8 * rise / np.maximum(bend, TINY)), size)
             bent = Reason(f"curvature of {region.name}/{face.name}")
             found.append((some, lengths, ((lengths < size).astype(np.int64), (UNKNOWN, bent))))
     return joined(found)

@@ -10,7 +10,7 @@ from decomp.vectors import Array
 
 REGULAR = 0.118
 """The volume of a regular tetrahedron with edges of length 1."""
-ASKED = 20_000
+POINTS_ASKED = 20_000
 """Points in the model's box at which regions and lengths are asked."""
 
 
@@ -40,9 +40,9 @@ def expected_tets(geometry: Geometry, wish: Wishes, sizes: Array, seed: int = 0)
     total = 0.0
     for number, region in enumerate(geometry.regions):
         low, high = np.array(region.bounds)
-        points = random.uniform(low, high, size=(ASKED, 3))
+        points = random.uniform(low, high, size=(POINTS_ASKED, 3))
         inside = geometry.index.region_of(points) == number
         length = np.minimum(wish.at(points[inside]), sizes[number])
-        density = (length**-3.0).sum() / ASKED / REGULAR
+        density = (length**-3.0).sum() / POINTS_ASKED / REGULAR
         total += float(np.prod(high - low)) * density
     return total

@@ -15,11 +15,12 @@ from decomp.meshing.sizing.wall import FACING, Wall
 from decomp.meshing.surface.layout import samples
 from decomp.meshing.surface.surface import MeshSurface
 from decomp.sites.site import SiteKind
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, dot, norm
 
-ALONG = 9
+ANGLES_ALONG = 9
 """Angles are measured at so many points of an edge."""
-SAMPLED = 12.0
+FEATURE_SAMPLES = 12.0
 """Features are looked for at points this part of a region's diagonal apart."""
 USUAL = 5e-3
 """The tolerance relative to the smallest region's diagonal, where nothing asks for less."""
@@ -31,20 +32,20 @@ OF_THICKNESS, OF_EDGE = 0.2, 0.12
 OF_THIN, SLENDER = 0.15, 3.0
 """And at most the first of the least thickness where the largest edges are more than so many times
 as long: nothing holds such triangles off each other in between."""
-OF_GAP = 0.3
+EPSILON_OF_GAP = 0.3
 """And at most this part of the narrowest gap outside."""
 OF_NECK, OF_ALL = 0.3, 0.1
 """And at most the first part of the narrowest place of a face, but no less on its account than the
 second part of what it is else: over narrower ones a mesher may draw edges together."""
-WIDE = 30.0
+WIDE_DEGREES = 30.0
 """Where a sheet ends in an edge at less than this angle (degrees) to the faces, the tolerance is
 smaller: the mesher lets it end the tolerance / sin(angle) before the edge."""
-ZOOMS, PROMISING, CLOSE = 4, 6, 2.0
+ZOOMS, PROMISING, CLOSE_TO_LEAST = 4, 6, 2.0
 """A wall's narrowest place is looked for in so many rounds, with samples a quarter as far apart in
 each, for so many walls in which samples find the least, and less than so many times the least."""
 SETTLED = 0.98
 """A look that finds no less than this part of what was known is the last."""
-LEAST = 1e-5
+LEAST_TOLERANCE = 1e-5
 """The tolerance is at least this part of the model's diagonal."""
 
 
@@ -56,10 +57,12 @@ def usual_tolerance(geometry: Geometry, length: float, cusp: float = 0.0) -> flo
     smallest = min(region.diagonal for region in geometry.regions)
     tolerance = min(USUAL * smallest, OF_LENGTH * length)
     sharpest = min(sharpest_angle(region, cusp) for region in geometry.regions) / 2
-    narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE))
+    narrow = np.sin(np.radians(sharpest)) / np.sin(np.radians(WIDE_DEGREES))
     tolerance *= min(1.0, float(narrow**2))
     edges = [edge.length for region in geometry.regions for edge in region.edges]
-    return max(min(tolerance, OF_EDGE * min(edges, default=np.inf)), LEAST * geometry.diagonal)
+    return max(
+        min(tolerance, OF_EDGE * min(edges, default=np.inf)), LEAST_TOLERANCE * geometry.diagonal
+    )
 
 
 def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
@@ -70,7 +73,7 @@ def sharpest_angle(boundary: RegionBoundary, cusp: float = 0.0) -> float:
     least = 180.0
     for edge in boundary.edges:
         if edge.convexity is Convexity.CONVEX:
-            at = edge.curve.point(np.linspace(edge.start, edge.end, ALONG))
+            at = edge.curve.point(np.linspace(edge.start, edge.end, ANGLES_ALONG))
             one, two = (
                 boundary.faces[face].outward
                 * boundary.carriers[boundary.faces[face].carrier].normal(at)
@@ -98,11 +101,11 @@ def fitting_tolerance(
     tolerance = min(tolerance, part * thin)
     neck = min(narrowest(region, tolerance / OF_NECK) for region in geometry.regions)
     tolerance = min(tolerance, max(OF_NECK * neck, OF_ALL * tolerance))
-    while tolerance > LEAST * geometry.diagonal and has_gap(
+    while tolerance > LEAST_TOLERANCE * geometry.diagonal and has_gap(
         geometry, surface, tolerance / OF_THICKNESS
     ):
         tolerance /= 2
-    return max(tolerance, LEAST * geometry.diagonal)
+    return max(tolerance, LEAST_TOLERANCE * geometry.diagonal)
 
 
 def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
@@ -119,13 +122,13 @@ def has_gap(geometry: Geometry, surface: MeshSurface, width: float) -> bool:
         for face, sides in zip(boundary.faces, region.face_sides, strict=True):
             for patch, sign in sides:
                 own = mesh.patches[patch]
-                apart = max(boundary.diagonal / SAMPLED, width)
+                apart = max(boundary.diagonal / FEATURE_SAMPLES, width)
                 some = own.surface.place(samples(mesh.points, own.triangles, apart)[0])
                 out = sign * own.surface.normal(some)
                 asked = some + width / 2 * out
                 found = index.nearest(asked)
                 outside = index.region_of(some + 0.01 * width * out) < 0
-                way = (found.foot - asked) / np.maximum(found.distance, 1e-300)[:, None]
+                way = (found.foot - asked) / np.maximum(found.distance, TINY)[:, None]
                 near = (found.distance < 0.45 * width) & (dot(way, out) > -FACING)
                 for row in np.flatnonzero(outside & ((found.region >= 0) | near)):
                     site = geometry.sites[found.site[row]]
@@ -165,7 +168,7 @@ def thickness(
 
 def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> float:
     """The least local thickness of a region, infinite where no feet face each other."""
-    length = surface.regions[number].boundary.diagonal / SAMPLED
+    length = surface.regions[number].boundary.diagonal / FEATURE_SAMPLES
     least = [float(wide.min(initial=np.inf)) for _, wide in _curves(geometry, surface, number)]
     looks = [
         (_looked(surface, own, own.triangles, length), own)
@@ -175,7 +178,7 @@ def least_thickness(geometry: Geometry, surface: MeshSurface, number: int) -> fl
     least += [look.thick for look, _ in looks]
     for look, own in looks:
         for zoom in range(1, ZOOMS):
-            if not look.thick < CLOSE * min(least):
+            if not look.thick < CLOSE_TO_LEAST * min(least):
                 break
             apart, before = length / 4**zoom, look.thick
             look = _looked(surface, own, look.triangles, apart, look)

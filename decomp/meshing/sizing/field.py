@@ -14,28 +14,28 @@ from decomp.meshing.sizing.size_field import SizeField
 from decomp.meshing.sizing.wishes import SLOPE, Lengths, Wishes
 from decomp.vectors import Array, Ints
 
-MARGIN = 0.2
+BACKGROUND_MARGIN = 0.2
 """How far the background reaches beyond the model, in parts of its diagonal."""
-STEEP = 1.5
+OUTSIDE_SLOPE = 1.5
 """Outside, a length away from the model, they grow by this slope."""
-WIDTH = 2.0
+CELL_WIDTH = 2.0
 """Cells are at most so many of the shortest lengths in them wide."""
 DEEPEST = 12
 """How often cells are halved at most."""
 SHAKEN = 1e-3
 """Corners are moved by this part of the least cell, lest eight of them lie on a sphere."""
-CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+CUBE_CORNERS = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 UNIFORM = 1.15
 """Lengths that differ by no more than this factor need no field,"""
 HOLLOW = 5.0
 """unless one length all over the box gives more than so many times as many tetrahedra as a field
 that grows outside the model does: a mesher of the whole box, such as TetWild, fills it, and a field
 takes it two more passes."""
-PROBES = 4000
-WIDEST = 0.5
+FIELD_PROBES = 4000
+LONGEST_BESIDE = 0.5
 """The longest length beside the model, in parts of its diagonal: a slender one fills little of the
 cube that its field is made in."""
-AROUND = 0.05
+BOX_MARGIN = 0.05
 """How far such a box reaches beyond the model, in parts of its diagonal."""
 
 
@@ -54,10 +54,10 @@ def sizing(geometry: Geometry, wish: Wishes, sizes: Array) -> tuple[float, SizeF
     hollow = is_hollow(geometry, lengths, longest)
     if is_uniform(wish) and not hollow:
         return longest, None
-    low, high = _box(geometry, MARGIN)
+    low, high = _box(geometry, BACKGROUND_MARGIN)
     least = float(wish.lengths.min())
     points = octree_corners(low, float((high - low).max()), lengths, least)
-    bounded = np.minimum(lengths(points), max(longest, WIDEST * geometry.diagonal))
+    bounded = np.minimum(lengths(points), max(longest, LONGEST_BESIDE * geometry.diagonal))
     field = SizeField(points, delaunay(points), bounded)
     return float(field.sizes.max()) if hollow else longest, field
 
@@ -72,7 +72,7 @@ def _joined(geometry: Geometry, wish: Wishes, sizes: Array) -> Lengths:
         rows = np.flatnonzero(region < 0)
         if len(rows):
             away = geometry.index.nearest(points[rows]).distance - found[rows]
-            found[rows] += (STEEP - SLOPE) * np.maximum(away, 0.0)
+            found[rows] += (OUTSIDE_SLOPE - SLOPE) * np.maximum(away, 0.0)
         return found
 
     return lengths
@@ -85,7 +85,9 @@ def is_uniform(wish: Wishes) -> bool:
 
 def is_hollow(geometry: Geometry, lengths: Lengths, longest: float, seed: int = 0) -> bool:
     """Whether a model leaves so much of its box empty that one length all over is too costly."""
-    probes = np.random.default_rng(seed).uniform(*_box(geometry, AROUND), size=(PROBES, 3))
+    probes = np.random.default_rng(seed).uniform(
+        *_box(geometry, BOX_MARGIN), size=(FIELD_PROBES, 3)
+    )
     share = float(np.mean((longest / lengths(probes)) ** 3))
     return HOLLOW * share < 1
 
@@ -109,11 +111,11 @@ def octree_corners(
         step = width / 2**depth
         middles = low + (cells + 0.5) * step
         shortest = lengths(middles) - SLOPE * step * np.sqrt(3) / 2
-        wide = step > WIDTH * np.maximum(shortest, least)
+        wide = step > CELL_WIDTH * np.maximum(shortest, least)
         wide &= depth < DEEPEST
         scale = 2 ** (DEEPEST - depth)
-        corners.append(((cells[~wide][:, None] + CORNERS) * scale).reshape(-1, 3))
-        cells = (2 * cells[wide][:, None] + CORNERS).reshape(-1, 3)
+        corners.append(((cells[~wide][:, None] + CUBE_CORNERS) * scale).reshape(-1, 3))
+        cells = (2 * cells[wide][:, None] + CUBE_CORNERS).reshape(-1, 3)
         depth += 1
     grid = np.unique(np.concatenate(corners), axis=0)
     shake = SHAKEN * width / 2 ** (depth - 1)

@@ -10,7 +10,11 @@ from decomp.complex.model import LineKind, SurfaceElement
 from decomp.geometry import Geometry
 from decomp.meshing.sizing.wall import FACING, Wall, owners_and_meeting
 from decomp.meshing.surface.surface import MeshSurface
+from decomp.tolerance import TINY
 from decomp.vectors import Array, dot
+
+TO_SIDES = 1e-6
+"""Feet on a sheet's two sides are asked this part of the diagonal off it."""
 
 
 def sheet_walls(geometry: Geometry, surface: MeshSurface, number: int) -> list[Wall]:
@@ -49,11 +53,11 @@ def _facing(
     With their feet on both sides, and how far these are apart (k,).
     """
     some = sheet.place(np.unique(some, axis=0))  # triangles share their corners
-    way = sheet.normal(some) * (1e-6 * geometry.diagonal)
+    way = sheet.normal(some) * (TO_SIDES * geometry.diagonal)
     one, two = (geometry.index.nearest(some + sign * way) for sign in (-1, 1))
     good = (one.region == number) & (two.region == number) & (one.distance > 0)
     good &= two.distance > 0
-    u = (one.foot - some) / np.maximum(one.distance, 1e-300)[:, None]
-    v = (two.foot - some) / np.maximum(two.distance, 1e-300)[:, None]
+    u = (one.foot - some) / np.maximum(one.distance, TINY)[:, None]
+    v = (two.foot - some) / np.maximum(two.distance, TINY)[:, None]
     rows = good & (dot(u, v) < FACING)
     return (some[rows], one.foot[rows], two.foot[rows]), np.asarray(2 * one.distance[rows])

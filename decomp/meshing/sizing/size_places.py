@@ -14,7 +14,7 @@ from decomp.meshing.sizing.wishes import SLOPE
 from decomp.places import triple
 from decomp.vectors import Array, norm, positive, vector
 
-DIGITS = 9
+PLACE_DIGITS = 9
 """Of places in words: users look for what they wrote."""
 
 
@@ -70,14 +70,18 @@ def _place(given: Any, where: str) -> Place:
         )
     first, length = vector(given[0], f"the place of {where}"), positive(given[-1], where)
     if len(given) == 2:
-        return Place(first, first, 0.0, length, f"the point {triple(first, DIGITS)}")
+        return Place(first, first, 0.0, length, f"the point {triple(first, PLACE_DIGITS)}")
     if np.ndim(given[1]) == 0:
         radius = positive(given[1], f"the radius of {where}")
-        return Place(first, first, radius, length, f"the ball about {triple(first, DIGITS)}")
+        return Place(first, first, radius, length, f"the ball about {triple(first, PLACE_DIGITS)}")
     other = vector(given[1], f"the other corner of {where}")
     low, high = np.minimum(first, other), np.maximum(first, other)
     return Place(
-        low, high, 0.0, length, f"the box from {triple(low, DIGITS)} to {triple(high, DIGITS)}"
+        low,
+        high,
+        0.0,
+        length,
+        f"the box from {triple(low, PLACE_DIGITS)} to {triple(high, PLACE_DIGITS)}",
     )
 
 

@@ -19,25 +19,28 @@ from decomp.meshing.sizing.size_places import Place, SizeFunction
 from decomp.meshing.sizing.wishes import Lengths, Wish, Wishes, joined
 from decomp.meshing.surface.layout import samples
 from decomp.meshing.surface.surface import MeshSurface
+from decomp.tolerance import TINY
 from decomp.vectors import Array, cross, norm, positive
 from decomp.vectors import number as finite
 
 PART_OF_MODEL, PART_OF_REGION = 20.0, 12.0
 """By default edges are at most this part of the model's, or of their region's, diagonal."""
-VOLUME, ASKED = 3e-3, 1.4e-3
+VOLUME_CHANGE, VOLUME_ASKED = 3e-3, 1.4e-3
 """Where edges of the wanted length would change a region's volume by more than the first part of
 it, they are made so short that it is the second: meshers leave edges up to 4/3 as long."""
-LEAST = 1 / 12
+LEAST_BY_CURVATURE = 1 / 12
 """Curvature alone makes edges no shorter than this part of the largest."""
-CANCELLED = 0.3
+VOLUME_LOST = 0.3
 """Faces bent inwards do not quite gain what others lose: this part of all may be lost."""
-THIN = 4.0
+EDGE_OF_THICKNESS = 4.0
 """Edges are at most so many times as long as the part that they are in is thick."""
-LOOKS = 20_000
+FIELD_LOOKS = 20_000
 """In each region's box a field is looked at in so many places."""
-EVEN, ROUGH = 0.85, 1.2
+EVEN_WALL, ROUGH = 0.85, 1.2
 """Edges about as long as the part is thick, up to the second of these parts of it, are made as long
 as the first: the skeleton halves walls, and tetrahedra over half of one would all come out flat."""
+FLAT_FACE = 1e-12
+"""Curvature, times the largest edge, up to which a face is flat there."""
 
 
 @dataclass(frozen=True)
@@ -176,17 +179,17 @@ def _inside(geometry: Geometry, seed: int = 0) -> Array:
     found = []
     for number, region in enumerate(geometry.regions):
         low, high = np.array(region.bounds)
-        points = random.uniform(low, high, size=(LOOKS, 3))
+        points = random.uniform(low, high, size=(FIELD_LOOKS, 3))
         found.append(points[geometry.index.region_of(points) == number])
     return np.concatenate(found)
 
 
 def _across(thick: Array, largest: float, layers: int | None) -> Array:
     """Lengths (n,) where parts are so thick (n,)."""
-    most = THIN if layers is None else min(THIN, 1 / layers)
+    most = EDGE_OF_THICKNESS if layers is None else min(EDGE_OF_THICKNESS, 1 / layers)
     own = np.minimum(most * thick, largest)
-    about = (own > EVEN * thick) & (own <= ROUGH * thick)
-    return np.where(about, EVEN * thick, own)
+    about = (own > EVEN_WALL * thick) & (own <= ROUGH * thick)
+    return np.where(about, EVEN_WALL * thick, own)
 
 
 def _curved(
@@ -211,8 +214,8 @@ def _curved(
         bend = np.maximum(np.abs(low), np.abs(high))
         own = np.full(len(some), largest)
         if wanted.per_circle is not None:
-            own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, 1e-300))
-        own = np.maximum(own, LEAST * largest)
+            own = np.minimum(own, 2 * pi / wanted.per_circle / np.maximum(bend, TINY))
+        own = np.maximum(own, LEAST_BY_CURVATURE * largest)
         share = (area / np.bincount(which, minlength=len(area)))[which]
         lost = face.outward * float((share * own**2 * (low + high)).sum()) / 16
         change, total = change + lost, total + abs(lost)
@@ -223,17 +226,17 @@ def _curved(
         which = np.where(own < largest, 1 if limit is None else np.where(own < limit, 1, 2), 0)
         found.append((some, own, bend, which, reasons))
     content = abs(region.boundary.volume)
-    change, part = abs(change) / content, CANCELLED * total / content
+    change, part = abs(change) / content, VOLUME_LOST * total / content
     shrunk = 1.0
     chosen = wanted.size is not None or region.name in wanted.of_regions
     if not chosen and wanted.per_circle is None:
-        if change > VOLUME:
-            shrunk = sqrt(ASKED / change)
-        if part > VOLUME:
-            shrunk = min(shrunk, sqrt(VOLUME / part))
+        if change > VOLUME_CHANGE:
+            shrunk = sqrt(VOLUME_ASKED / change)
+        if part > VOLUME_CHANGE:
+            shrunk = min(shrunk, sqrt(VOLUME_CHANGE / part))
     wishes: list[Wish] = []
     for some, own, bend, which, reasons in found:
-        bent = (bend > 1e-12 / largest) & (shrunk < 1.0)
+        bent = (bend > FLAT_FACE / largest) & (shrunk < 1.0)
         lengths = np.where(bent, shrunk * own, own)
         wishes.append((some, lengths, (np.where(bent, 1, which), reasons)))
     return wishes

@@ -18,7 +18,7 @@ from decomp.vectors import Array, Ints
 
 SLOPE = 0.35
 """How much longer edges may get for each unit of way."""
-STEP = 1.25
+CLASS_STEP = 1.25
 """Wishes are joined in classes of lengths that differ by this factor."""
 
 Lengths = Callable[[Array], Array]
@@ -54,11 +54,11 @@ class Wishes:
         found = np.full(len(places), np.inf)
         which: Ints = np.zeros(len(places), dtype=np.int64)
         least = float(self.lengths.min())
-        classes = np.floor(np.log(self.lengths / least) / np.log(STEP)).astype(np.int64)
+        classes = np.floor(np.log(self.lengths / least) / np.log(CLASS_STEP)).astype(np.int64)
         for number in np.unique(classes).tolist():
             rows = np.flatnonzero(classes == number)
             gap, nearest = cKDTree(self.points[rows]).query(places)
-            lengths = least * STEP**number + SLOPE * gap
+            lengths = least * CLASS_STEP**number + SLOPE * gap
             shorter = lengths < found
             found[shorter] = lengths[shorter]
             which[shorter] = self.reason[rows[nearest[shorter]]]

@@ -21,7 +21,7 @@ from decomp.vectors import Array, norm
 
 OF_CHORD = 0.25
 """Chords of triangles are at most this part of those of the edges wanted,"""
-OF_GAP = 0.02
+CHORD_OF_GAP = 0.02
 """and at most this part of the way to what is nearest."""
 
 
@@ -77,7 +77,7 @@ def _allowed(drawn: BoundaryMesh, number: int, sizes: Array) -> float:
     assert isinstance(sphere, Sphere)
     regions = [side[0] for side in (own.outer, own.inner) if side is not None]
     chord = float(sizes[regions].min()) ** 2 / (8 * sphere.radius)
-    return min(OF_CHORD * chord, OF_GAP * _gap(drawn, number, sphere))
+    return min(OF_CHORD * chord, CHORD_OF_GAP * _gap(drawn, number, sphere))
 
 
 def _gap(drawn: BoundaryMesh, number: int, sphere: Sphere) -> float:

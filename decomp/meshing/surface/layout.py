@@ -13,7 +13,7 @@ from decomp.meshing.surface.cells import CellMap
 from decomp.meshing.surface.surface import MeshSurface
 from decomp.vectors import Array, Ints, norm
 
-FINEST = 64
+MOST_PER_SIDE = 64
 """Triangles are sampled with at most so many points along a side."""
 
 Side = tuple[int, int]
@@ -131,7 +131,7 @@ def samples(points: Array, triangles: Ints, spacing: float) -> tuple[Array, Ints
     """
     corners = points[triangles]
     longest = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
-    steps = np.clip(np.ceil(longest / spacing), 1, FINEST).astype(np.int64)
+    steps = np.clip(np.ceil(longest / spacing), 1, MOST_PER_SIDE).astype(np.int64)
     found, which = [np.empty((0, 3))], [np.empty(0, dtype=np.int64)]
     for count in np.unique(steps).tolist():
         rows = np.flatnonzero(steps == count)

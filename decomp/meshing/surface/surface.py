@@ -28,11 +28,11 @@ from decomp.skeletons.model import Cell, Method, Sheet, TrimSurface
 from decomp.skeletons.sheets.component_votes import MissingCurveError
 from decomp.skeletons.sheets.trim_maker import owners
 
-FINER, FINER_TRIES = 3.0, 2
+FINER_COMPLEX, FINER_TRIES = 3.0, 2
 """So much finer a complex is tried if one cannot be made, and so often."""
-TRACING = 0.7
+TRACED_SHARE = 0.7
 """Which part of the work is behind when all curves are traced."""
-VOLUME = 2e-3
+CELLS_VOLUME = 2e-3
 """How far the cells' volumes may sum up off the region's, relative to it."""
 
 
@@ -106,7 +106,7 @@ def coarsest(make: Callable[[float], MeshSurface], tolerance: float) -> MeshSurf
     def way(fine: float) -> Way[MeshSurface]:
         return Way(f"chords within {fine:.3g}", lambda: make(fine))
 
-    return first_of(way(tolerance / FINER**k) for k in range(FINER_TRIES + 1))
+    return first_of(way(tolerance / FINER_COMPLEX**k) for k in range(FINER_TRIES + 1))
 
 
 class SurfaceMaker:
@@ -130,7 +130,7 @@ class SurfaceMaker:
         self._curves = traced(
             self._geometry,
             SAMPLES[self._tried],
-            lambda what, done: self._tell(what, TRACING * done),
+            lambda what, done: self._tell(what, TRACED_SHARE * done),
         )
         self._tried += 1
 
@@ -144,7 +144,7 @@ class SurfaceMaker:
         Raises:
             GeometryError: a cell is not closed, or the cells do not fill their region.
         """
-        self._tell("triangulating sheets", TRACING)
+        self._tell("triangulating sheets", TRACED_SHARE)
         return coarsest(lambda fine: self._made(fine, by_face), tolerance)
 
     def _made(self, tolerance: float, by_face: bool) -> MeshSurface:
@@ -221,7 +221,7 @@ def checked(made: MeshSurface) -> MeshSurface:
     for region in made.regions:
         cells = tuple(replace(cell, volume=float(next(found))) for cell in region.cells)
         whole, exact = sum(cell.volume for cell in cells), region.boundary.volume
-        if abs(whole - exact) > VOLUME * abs(exact):
+        if abs(whole - exact) > CELLS_VOLUME * abs(exact):
             raise GeometryError(
                 f"the cells of region {region.name} hold {whole:.6g}, the region {exact:.6g}"
             )

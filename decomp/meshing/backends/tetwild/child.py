@@ -37,6 +37,8 @@ UNHURRIED = TimeLimit(600.0)
 RETRY_ENERGY = 2.0
 RETRY_EPSILON = 0.7
 """What a second try multiplies the stop energy and epsilon by."""
+RUNNABLE_EPSILON = 1e-6
+"""Epsilon below this part of the model's size has TetWild run without end."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +147,7 @@ def _check(points: Array, triangles: Ints, settings: Settings) -> None:
     scale = float(np.linalg.norm(np.ptp(points, axis=0)))
     if scale == 0.0:
         raise GeometryError("all points of the complex are equal")
-    if not settings.epsilon / scale > 1e-6:
+    if not settings.epsilon / scale > RUNNABLE_EPSILON:
         raise InputError(
             f"epsilon {settings.epsilon:.3g} is below a millionth of the model's size "
             f"{scale:.3g}: TetWild would not end"

@@ -11,7 +11,7 @@ import numpy as np
 
 from decomp.vectors import Array, Ints
 
-FEW = 4
+FEW_TRIANGLES = 4
 """So few triangles are not sorted further."""
 
 
@@ -22,7 +22,7 @@ def sorted_in_space(points: Array, triangles: Ints) -> Ints:
     parts = [(0, len(order))]
     while parts:
         start, end = parts.pop()
-        if end - start <= FEW:
+        if end - start <= FEW_TRIANGLES:
             continue
         rows = order[start:end]
         axis = int(np.argmax(np.ptp(centres[rows], axis=0)))

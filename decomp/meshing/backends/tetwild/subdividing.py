@@ -15,17 +15,16 @@ from collections.abc import Callable
 
 import numpy as np
 
+from decomp.complex.model import OPPOSITE_SIDES
 from decomp.meshes.faces import edges_of
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
-SIDES = np.array([[1, 2], [2, 0], [0, 1]])
-"""The side opposite to each corner."""
-ACROSS = 1.5
+LADDER = 1.5
 """Edges that are no creases may be so many times as long as asked: a ladder has diagonals."""
 SHAKEN = 1e-3
 """Edges are cut off the right place by up to this part of them, at random: regular vertices lie on
 common spheres, between which Delaunay tetrahedra may be flat, and TetWild inserts nothing there."""
-SWEEPS = 2
+FLIPPING_SWEEPS = 2
 """How often flips are looked for after each round of cuts; what is left comes with the next."""
 STRICT = 1e-6
 """Flips are made where opposite angles exceed a half turn by this sine."""
@@ -43,7 +42,7 @@ def subdivided(
         flat: triangles no farther off each other's planes are one.
     """
     while True:
-        for _ in range(SWEEPS):
+        for _ in range(FLIPPING_SWEEPS):
             net = _Net(points, triangles, flat)
             triangles = net.flipped()
         net = _Net(points, triangles, flat)
@@ -64,7 +63,7 @@ class _Net:
 
     def __init__(self, points: Array, triangles: Ints, flat: float) -> None:
         self._points, self._triangles = points, triangles
-        self._edges, self._sides = edges_of(triangles, SIDES)
+        self._edges, self._sides = edges_of(triangles, OPPOSITE_SIDES)
         count = len(self._edges)
         order = np.argsort(self._sides.ravel(), kind="stable")
         self._number = np.bincount(self._sides.ravel(), minlength=count)
@@ -95,7 +94,7 @@ class _Net:
         """
         ends = self._points[self._edges]
         length = norm(ends[:, 1] - ends[:, 0])
-        limit = np.where(self._plane, ACROSS, 1.0) * longest(ends.mean(axis=1))
+        limit = np.where(self._plane, LADDER, 1.0) * longest(ends.mean(axis=1))
         long = length > limit
         keys = np.lexsort((length, long, long & ~self._plane))
         rank = np.empty(len(length), dtype=np.int64)
