@@ -10,6 +10,7 @@ import numpy as np
 from decomp.meshes.faces import faces_of
 from decomp.meshing.backends.tetwild.child import MeshingError, Settings, TimeLimit, tetrahedralized
 from decomp.meshing.conforming import Conformed, conformed
+from decomp.meshing.exact.exact_model import ExactModel
 from decomp.meshing.exact.opening import Opener
 from decomp.meshing.exact.strayed import strayed
 from decomp.meshing.exact.targets import Finder
@@ -75,12 +76,12 @@ def _run(given: Prepared, settings: Settings, limit: TimeLimit, tell: Progress) 
     epsilon = raw.settings.epsilon
     part = classified(geometry, known, raw.points, raw.tets, epsilon)
     points, tets = _used(raw.points, raw.tets[part >= 0])
-    opener = Opener(geometry, given.surface, known, plan, given.elements, epsilon)
-    points, tets, part = opener.opened(points, tets, part[part >= 0])
+    model = ExactModel(geometry, given.surface, known, plan, given.elements, epsilon)
+    points, tets, part = Opener(model).opened(points, tets, part[part >= 0])
     points, tets, part = freed(points, tets, part, known.region[known.cell])
     tell("projecting", 0.8)
     tagger = Tagger(geometry, given.surface, known, plan, epsilon)
-    finder = Finder(geometry, given.surface, known, plan, given.elements, epsilon)
+    finder = Finder(model)
     tagged = tagger.tagged(points, part, faces_of(tets))
     aimed = given.asked
     for _ in range(CUTS):

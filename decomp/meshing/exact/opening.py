@@ -14,15 +14,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
-from decomp.geometry import Geometry
 from decomp.meshes.faces import EDGES, OPPOSITE, edges_of, faces_of, least_dihedral
+from decomp.meshing.exact.exact_model import ExactModel
 from decomp.meshing.exact.layers import Across, Layer, across, layers
 from decomp.meshing.exact.targets import LINE, placed
-from decomp.meshing.surface.cells import OUTSIDE, CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import OUTSIDE, locate
 from decomp.vectors import Array, Bools, Ints
 
 REACH = 2.5
@@ -44,23 +41,13 @@ class Opener:
     """Opens the layers of one model's meshes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        epsilon: how far the mesh may be off the complex.
+        model: that they follow.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._cells, self._plan = geometry, cells, plan
-        self._elements, self._epsilon = elements, epsilon
-        self._layers = layers(surface, plan)
+    def __init__(self, model: ExactModel) -> None:
+        self._geometry, self._cells, self._plan = model.geometry, model.cells, model.plan
+        self._elements, self._epsilon = model.elements, model.epsilon
+        self._layers = layers(model.surface, model.plan)
 
     def opened(self, points: Array, tets: Ints, part: Ints) -> tuple[Array, Ints, Ints]:
         """Open all layers.

@@ -15,11 +15,9 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 from decomp.complex.many_elements import Elements
 from decomp.complex.polylines import polyline_distance
 from decomp.errors import GeometryError
-from decomp.geometry import Geometry
+from decomp.meshing.exact.exact_model import ExactModel
 from decomp.meshing.naming.tagging import Tagged
-from decomp.meshing.surface.cells import CellMap, locate
-from decomp.meshing.surface.layout import Layout
-from decomp.meshing.surface.surface import MeshSurface
+from decomp.meshing.surface.cells import locate
 from decomp.vectors import Array, Bools, Ints, norm
 
 BESIDE = 1e-9
@@ -70,25 +68,18 @@ class Finder:
     """Finds the targets of nodes.
 
     Args:
-        geometry, surface, cells, plan: of the model.
-        elements: of the plan's complex.
-        epsilon: how far nodes are off at first.
+        model: whose surfaces, curves and points they are.
     """
 
-    def __init__(
-        self,
-        geometry: Geometry,
-        surface: MeshSurface,
-        cells: CellMap,
-        plan: Layout,
-        elements: Elements,
-        epsilon: float,
-    ) -> None:
-        self._geometry, self._cells = geometry, cells
+    def __init__(self, model: ExactModel) -> None:
+        plan = model.plan
+        self._geometry, self._cells = model.geometry, model.cells
         self._sites = {
-            patch: sites for region in surface.regions for patch, sites in region.sheets.items()
+            patch: sites
+            for region in model.surface.regions
+            for patch, sites in region.sheets.items()
         }
-        self._plan, self._elements, self._epsilon = plan, elements, epsilon
+        self._plan, self._elements, self._epsilon = plan, model.elements, model.epsilon
         self._group: dict[int, tuple[int, ...]] = {
             patch: own for own in plan.between.values() for patch in own
         }
