@@ -26,6 +26,8 @@ ONE_NODE: Final = 1e-7
 """Nodes nearer to each other, found along different seams, are one."""
 SINGULAR: Final = 1e-7
 """Sine of the angle between two normals below which they count as parallel."""
+TINY: Final = 1e-300
+"""Divisors are no less: what is divided by it is 0 itself, or does not count."""
 AT_END: Final = 1e-6
 """What is nearer to the end of a curve, which may be extrapolated, is at it."""
 
