@@ -22,6 +22,8 @@ F = TypeVar("F", bound=Callable[..., Any])
 PACKAGE = Path(__file__).parent.parent
 FOLDERS = ("kernels", "carriers", "sites", "skeletons/balls", "skeletons/seams/steps")
 """Folders with kernels that are called from other folders, each from those after it."""
+CONSTANTS = PACKAGE / "tolerance.py"
+"""Kernels have its numbers in them."""
 
 
 def kernel(function: F) -> F:
@@ -134,8 +136,8 @@ def _restamp(compiled: Any) -> None:
     calls in another file.
     """
     own = Path(getattr(compiled, "py_func", compiled).__code__.co_filename)
-    changed, size = own.stat().st_mtime, own.stat().st_size
-    stamps = [(changed, size), *(_stamp(folder) for folder in _called_from(own.parent))]
+    files = [(file.stat().st_mtime, file.stat().st_size) for file in (own, CONSTANTS)]
+    stamps = [*files, *(_stamp(folder) for folder in _called_from(own.parent))]
     with suppress(AttributeError):
         compiled._cache._cache_file._source_stamp = (
             max(changed for changed, _ in stamps),

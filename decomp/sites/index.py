@@ -91,6 +91,10 @@ class SiteIndex:
         self._parts: dict[int, RegionIndex] = {}
         self._laid_out: dict[int, RegionSites] = {}
 
+    def unbuilt(self) -> SiteIndex:
+        """The same with no spatial structure built yet."""
+        return SiteIndex(self._form, self._boundaries, self._outside, self._face_at)
+
     @cached_property
     def occupancy(self) -> OccupancyTree:
         """The octree that tells regions apart."""

@@ -40,6 +40,8 @@ ALONG_SELF = 8
 """Chords at least along a curve that borders a sheet of an edge with itself."""
 TURN = 0.35
 """The most (radians) that normals turn from one sample of a trim to the next."""
+ON_BOUNDARY = 1e-8
+"""Nodes nearer to a vertex of the boundary than this part of the size are it."""
 
 
 @dataclass(eq=False)
@@ -143,7 +145,7 @@ class RegionAssembler:
             if number < fixed:
                 result[number] = self._boundary.of_vertex[number]
             elif number in used:
-                known = gaps[number] <= 1e-8 * self._size
+                known = gaps[number] <= ON_BOUNDARY * self._size
                 result[number] = int(near[number]) if known else self._add(point)
         return result
 

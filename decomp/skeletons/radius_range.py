@@ -18,6 +18,7 @@ from decomp.complex.model import SurfaceElement
 from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.sheets.self_surface import SelfSheetSurface
 from decomp.skeletons.sheets.sheet_surface import SheetSurface
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 INNER = 0.02
@@ -158,7 +159,7 @@ class SheetRadii:
     def _rise(self, which: Ints, points: Array, normal: Array | None = None) -> Array:
         """The gradient h (k, 3) of the radius along the sheets."""
         found = self._queries.nearest(points)
-        gradient = (points - found.foot) / np.maximum(found.distance, 1e-300)[:, None]
+        gradient = (points - found.foot) / np.maximum(found.distance, TINY)[:, None]
         across = self._normal(which, points) if normal is None else normal
         return np.asarray(gradient - dot(gradient, across)[:, None] * across)
 
@@ -199,7 +200,7 @@ class SheetRadii:
             kept = hope & (gain > GAIN * self._size) & (reach > SPACING * self._size)
             which, points, reach, value = which[kept], points[kept], reach[kept], value[kept]
             step, length = step[kept], length[kept]
-            scale = np.minimum(1.0, reach / np.maximum(length, 1e-300))
+            scale = np.minimum(1.0, reach / np.maximum(length, TINY))
             tried, good = self._on(which, points + scale[:, None] * step)
             new = sign * self._queries.depth(tried)[1]
             good &= new >= value

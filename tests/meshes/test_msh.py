@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from decomp.meshes.files import encoded
+from decomp.meshes.files import encoded, form_of
 from decomp.meshes.files.entities import entities
 from decomp.meshes.model import TetMesh
 from tests.meshes.opened import named_sizes, opened
@@ -35,7 +35,7 @@ def sizes(mesh: TetMesh) -> dict[tuple[int, str], int]:
 def test_gmsh_reads_every_group_and_saves_it_again(kind: str, shape: str, tmp_path: Path) -> None:
     mesh = MESHES[shape]
     path, again = tmp_path / "bar.msh", tmp_path / "again.msh"
-    path.write_bytes(encoded(mesh, ".msh", **KINDS[kind]))
+    path.write_bytes(encoded(mesh, form_of(path), **KINDS[kind]))
     with opened(path) as gmsh:
         assert named_sizes(gmsh) == sizes(mesh)
         tags, coordinates, _ = gmsh.model.mesh.getNodes()
@@ -61,7 +61,7 @@ def test_volumes_know_their_surfaces(tmp_path: Path) -> None:
     _, _, volumes = entities(mesh).bounds
     assert volumes == {1: [1, 2, 5, 9], 2: [-9, 1, 2, 5], 3: [-5, 3, 4]}
     path = tmp_path / "bar.msh"
-    path.write_bytes(encoded(mesh, ".msh"))
+    path.write_bytes(encoded(mesh, form_of(path)))
     with opened(path) as gmsh:
         for tag, found in volumes.items():
             bounds = gmsh.model.getBoundary([(3, tag)], oriented=False)

@@ -26,6 +26,8 @@ FREE = 1e-3
 """Steps may be so much longer, as a part of the size, than half the distance."""
 ORTHOGONAL = 1e-16
 """Cosine of the angle between columns of J below which they are not rotated: rounding."""
+FAR = 1e300
+"""Farther than anything."""
 NOTHING = 1e-290
 """Products of columns that are no longer normal numbers."""
 
@@ -79,7 +81,7 @@ def measure(
         Mean, least and greatest distance.
     """
     which, feet, work = contacts.which, contacts.feet, contacts.work
-    least, most, total = 1e300, -1e300, 0.0
+    least, most, total = FAR, -FAR, 0.0
     for c in range(contacts.count):
         row = first + c
         away, gx, gy, gz, qx, qy, qz = support(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
 from decomp.carriers.compiled_carriers import (
     CarrierTable,
@@ -19,6 +19,8 @@ divided by no less than this, and are no longer than this part of the distance."
 TOUCHING = 1e-7
 """Sine of the angle between carriers below which rounding decides where they meet."""
 FOOT_STEPS = 60
+AT_REST, ROUNDING = 1e-16, 1e-13
+"""Steps below the first are the last ones; so are those below the second that do not shrink."""
 
 
 @inner
@@ -38,7 +40,7 @@ def curve_foot(
     Newton's method on a(q) = 0, b(q) = 0, (p - q).t(q) = 0; the derivative of the last by q has
     the curve's bending k in it: -(1 - (p - q).k) t.
     """
-    before = 1e300
+    before = inf
     for _ in range(FOOT_STEPS):
         nx, ny, nz = normal(table, a, qx, qy, qz)
         mx, my, mz = normal(table, b, qx, qy, qz)
@@ -70,9 +72,9 @@ def curve_foot(
             sz = ca * nz + cb * mz + along * tz
         qx, qy, qz = qx + sx, qy + sy, qz + sz
         length = sqrt(sx * sx + sy * sy + sz * sz)
-        if length <= 1e-16 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
+        if length <= AT_REST * (1.0 + abs(qx) + abs(qy) + abs(qz)):
             break
-        if length >= before and length <= 1e-13 * (1.0 + abs(qx) + abs(qy) + abs(qz)):
+        if length >= before and length <= ROUNDING * (1.0 + abs(qx) + abs(qy) + abs(qz)):
             break
         before = length
     return qx, qy, qz

@@ -8,7 +8,7 @@ at most, and Newton's steps that make it smaller lead to that on the known foot'
 
 from __future__ import annotations
 
-from math import atan2, cos, sin, sqrt
+from math import atan2, cos, inf, sin, sqrt
 
 from decomp.carriers.compiled_carriers import Triple
 from decomp.kernels.compiled import inner
@@ -51,7 +51,7 @@ def ellipse_foot(
     # half the square of the distance, but for a constant
     level = 0.5 * (aa * c * c + bb * s * s) - pa * c - pb * s
     largest = max(aa, bb) + sqrt(pa * pa + pb * pb)
-    before = 1e300
+    before = inf
     for _ in range(STEPS):
         slope = (bb - aa) * s * c + pa * s - pb * c
         bend = (bb - aa) * (c * c - s * s) + pa * c + pb * s

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from decomp.boundary.topology import RegionBoundary
 from decomp.sites import SiteIndex
@@ -24,6 +25,10 @@ class RegionContext:
 
     index: SiteIndex
     region: int
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is built of it can be built again: sheets hold it, and skeletons are pickled."""
+        return {"index": self.index.unbuilt(), "region": self.region}
 
     @cached_property
     def boundary(self) -> RegionBoundary:

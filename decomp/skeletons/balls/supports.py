@@ -39,6 +39,8 @@ SEARCHED = (CURVE, ELLIPSE)
 """Supports on which a foot is searched from a known one."""
 
 Field = tuple[float, float, float, float, float, float, float]
+ON_AXIS = 1e-15
+"""A point nearer to the axis of a circle than this part of its radius is on it, to rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +158,7 @@ def support(
         u = vx * data[k, 3] + vy * data[k, 4] + vz * data[k, 5]
         v = vx * data[k, 6] + vy * data[k, 7] + vz * data[k, 8]
         rho = sqrt(u * u + v * v)
-        if rho <= 1e-15 * data[k, 9]:
+        if rho <= ON_AXIS * data[k, 9]:
             # on the axis every point of the circle is a foot
             u, v, rho = 1.0, 0.0, 1.0
         u, v = data[k, 9] * (u / rho), data[k, 9] * (v / rho)

@@ -28,6 +28,8 @@ BESIDE = 1e-2
 
 STEP = 1e-7
 """How far from the boundary it is asked which face is nearest, relative to the region's size."""
+ASIDE = 1e-3
+"""Beside a face its distance is the step itself, but for this part of it."""
 
 
 def coverage(evidence: Evidence, balls: int, seed: int) -> Worst:
@@ -128,5 +130,5 @@ def _in_face(evidence: Evidence, number: int, points: Array, inward: Array) -> B
         for s in evidence.sites
     ]
     inside: Bools = np.array(own, dtype=np.bool_)[found.site]
-    inside &= (found.site >= 0) & (np.abs(found.distance - step) <= 1e-3 * step)
+    inside &= (found.site >= 0) & (np.abs(found.distance - step) <= ASIDE * step)
     return inside

@@ -10,6 +10,8 @@ import numpy as np
 from decomp.vectors import Array, Bools, Ints
 
 ROUNDS = 80
+AT_REST = 1e-16
+"""Parts of an edge of a cell that are shorter are points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +85,7 @@ def _zeros(low: Array, high: Array, miss: Callable[[Array], Array]) -> Array:
         a, fa = np.where(as_b, a, c), np.where(as_b, fa, f)
         b, fb = np.where(as_b, c, b), np.where(as_b, f, fb)
         side = np.where(as_b, 1, -1)
-        if (least == 0).all() or float(np.abs(b - a).max()) <= 1e-16:
+        if (least == 0).all() or float(np.abs(b - a).max()) <= AT_REST:
             break
     return np.asarray(low + best[:, None] * (high - low))
 

@@ -18,11 +18,11 @@ from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.normal_balls import least_radius, solve_radius, try_radius
 from decomp.skeletons.curves.normal_curves import NormalCurve
 from decomp.skeletons.curves.reflexive_loci import Locus
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, dot, nearest_rows, norm
 
 MERGED = 1e-3
 """Feet on one site nearer than this part of the radius are not told apart."""
-TINY = 1e-300
 LEAST = 0.1
 """Radii along a trim are looked for from this part of the nearest known one at least."""
 

@@ -37,6 +37,15 @@ STEP = 1e-2
 """Step of differences at a turning point, as a part of the interval that holds it."""
 RUN = 256
 """Samples by which it is seen where the centres over a normal curve turn back on a locus."""
+RESTING = 1e-8
+"""Centres over a trim that move less than this part of the size rest."""
+WHOLE = 1e-12
+"""A trim that leaves out less than this part of a closed curve is all of it."""
+TURNING = 1e-12
+"""So exactly the parameter is found where centres turn back."""
+SMALL, EVENLY = 1e-3, 0.2
+"""A radius below the first part of the size that grows evenly, but for the second part, begins
+with 0."""
 
 
 def seam_pieces(incidence: Incidence, seams: Sequence[Seam]) -> list[CurvePiece]:
@@ -138,7 +147,7 @@ def _locus_runs(
     curve, size = trim.over, incidence.boundary.diagonal
     s = np.linspace(trim.start, trim.end, RUN + 1)
     points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
-    if float(norm(points - points[0]).max()) <= 1e-8 * size:
+    if float(norm(points - points[0]).max()) <= RESTING * size:
         return [LocusRun(number, s, np.repeat(points[:1], len(s), axis=0))]
     way = np.diff(points, axis=0)
     turns = np.flatnonzero((way[1:] * way[:-1]).sum(axis=1) < 0) + 1
@@ -146,7 +155,7 @@ def _locus_runs(
         s[k] = _turn(curve, radius, float(s[k - 1]), float(s[k + 1]), way[k - 1])
     points = curve.feet(s) + radius(s)[:, None] * curve.directions(s)
     bounds = [0, *turns.tolist(), RUN]
-    whole = curve.closed and trim.end - trim.start >= (1 - 1e-12) * (curve.end - curve.start)
+    whole = curve.closed and trim.end - trim.start >= (1 - WHOLE) * (curve.end - curve.start)
     if whole and len(turns) > 1:
         # the parameter's own start is no end of a run
         last = int(turns[-1])
@@ -173,7 +182,7 @@ def _turn(
         lambda s: float(behind(np.array([s]))[0]),
         bounds=(low, high),
         method="bounded",
-        options={"xatol": 1e-12},
+        options={"xatol": TURNING},
     )
     at, h = float(found.x), STEP * (high - low)
     for _ in range(2):
@@ -205,12 +214,12 @@ def _trim_piece(incidence: Incidence, trim: TrimPiece) -> CurvePiece | Callable[
     ends = []
     for near, next_, stop in ((0, 1, trim.start), (-1, -2, trim.end)):
         r, r2 = float(balls.radius[near]), float(balls.radius[next_])
-        if r <= 1e-3 * size and abs(r2 - 2 * r) <= 0.2 * r:
+        if r <= SMALL * size and abs(r2 - 2 * r) <= EVENLY * r:
             ends.append(over.feet(np.array([stop]))[0])
         else:
             ends.append(_end(incidence, curve, stop, r))
     points = np.concatenate([ends[0][None], points[2:-2], ends[1][None]])
-    whole = over.closed and abs(span - (over.end - over.start)) <= 1e-12 * abs(span)
+    whole = over.closed and abs(span - (over.end - over.start)) <= WHOLE * abs(span)
     if whole:
         points[-1] = points[0]
     middle = len(points) // 2
@@ -277,7 +286,7 @@ def ray_pieces(incidence: Incidence) -> list[CurvePiece]:
         point = boundary.vertices[vertex].point
         balls = inscribed_balls(incidence.context, point[None], direction[None])
         radius = float(balls.radius[0])
-        if radius <= 1e-9 * boundary.diagonal:
+        if radius <= boundary.tolerances.same:
             continue
         which: Ints = np.array([balls.site[0]])
         ray = np.linspace(0, radius, 5)

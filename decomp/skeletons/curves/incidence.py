@@ -21,7 +21,7 @@ from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.balls.supports import SEARCHED
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.legs import legs
-from decomp.tolerance import CONVERGED
+from decomp.tolerance import CONVERGED, TINY
 from decomp.vectors import Array, Bools, Ints, cross, dot, nearest_rows, norm
 
 NEAR = 1e-8
@@ -274,7 +274,7 @@ def _on_chords(samples: Array, points: Array) -> Array:
     result, least = samples[at], np.full(len(points), np.inf)
     for first in (np.maximum(at - 1, 0), np.minimum(at, len(samples) - 2)):
         start, way = samples[first], samples[first + 1] - samples[first]
-        along = dot(points - start, way) / np.maximum(dot(way, way), 1e-300)
+        along = dot(points - start, way) / np.maximum(dot(way, way), TINY)
         near = start + np.clip(along, 0.0, 1.0)[:, None] * way
         gap = norm(points - near)
         result, least = np.where((gap < least)[:, None], near, result), np.minimum(gap, least)

@@ -19,7 +19,7 @@ from decomp.curves.circle import Circle
 from decomp.curves.line import Line
 from decomp.errors import GeometryError
 from decomp.skeletons.curves.incidence import ANGLE, Incidence, angle_between
-from decomp.tolerance import TOLERANCE
+from decomp.tolerance import TINY, TOLERANCE
 from decomp.vectors import Array, cross, dot, nearest_rows, norm
 
 REACH = 0.05
@@ -28,6 +28,14 @@ APPROACHES = 30
 """Steps of the search for the nearest normal."""
 FLAT = 1e-9
 """Points that move less than this part of a step along the edge are where normals meet."""
+WORTH = 0.01
+"""A step of the search is worth another one if it gains this part of the least that counts."""
+DIFFERENCE = 1e-6
+"""Step of differences of normals, as a part of the size."""
+STEP = 1e-5
+"""Step of differences of tangents, as a part of the edge."""
+AT_REST = 1e-15
+"""Newton's steps below this, relative to the parameter, are the last ones."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +154,7 @@ class EdgeNormals(NormalCurve):
             s[kept], away[kept], feet[kept] = tried[closer], off[closer], at[closer]
             height[kept], gap[kept] = up[closer], norm(off[closer])
             reach[rows[~closer]] = np.abs(tried - s[rows])[~closer] / 4
-            rows = rows[(moved > least) & (~closer | (gain > 0.01 * least))]
+            rows = rows[(moved > least) & (~closer | (gain > WORTH * least))]
         return s
 
     def _bounded(self, s: Array) -> Array:
@@ -163,8 +171,8 @@ class EdgeNormals(NormalCurve):
     def _turn(self, s: Array, feet: Array) -> tuple[Array, Array]:
         """How feet and directions (k, 3) change with the parameter."""
         tangent = self.edge.curve.derivative(s)
-        h = 1e-6 * self.incidence.boundary.diagonal
-        unit = tangent / np.maximum(norm(tangent), 1e-300)[:, None]
+        h = DIFFERENCE * self.incidence.boundary.diagonal
+        unit = tangent / np.maximum(norm(tangent), TINY)[:, None]
         ahead = self.incidence.inward(self.face, feet + h * unit)
         behind = self.incidence.inward(self.face, feet - h * unit)
         return tangent, (ahead - behind) * (norm(tangent) / (2 * h))[:, None]
@@ -182,8 +190,8 @@ class EdgeNormals(NormalCurve):
     def _descend(self, points: Array, guess: Array) -> Array:
         """Newton's method on (p - x).x' = 0, with differences for x''."""
         t = np.array(guess, dtype=np.float64)
-        h = 1e-5 * (self.end - self.start)
-        limit = 0.05 * (self.end - self.start)
+        h = STEP * (self.end - self.start)
+        limit = REACH * (self.end - self.start)
         rows = np.arange(len(t))
         for _ in range(30):
             x, d = self.edge.curve.point(t[rows]), self.edge.curve.derivative(t[rows])
@@ -192,7 +200,7 @@ class EdgeNormals(NormalCurve):
             slope = dot(away, (ahead - d) / h) - dot(d, d)
             move = np.where(slope < 0, -dot(away, d) / np.where(slope < 0, slope, 1.0), 0.0)
             t[rows] += np.clip(move, -limit, limit)
-            rows = rows[np.abs(move) > 1e-15 * (1 + np.abs(t[rows]))]
+            rows = rows[np.abs(move) > AT_REST * (1 + np.abs(t[rows]))]
             if not len(rows):
                 break
         return t

@@ -15,6 +15,7 @@ import numpy as np
 from decomp.boundary.topology import Edge, RegionBoundary
 from decomp.curves.newton import cross_direction, onto_pair
 from decomp.skeletons.seams.edge_seeds import EdgeFan
+from decomp.tolerance import TINY
 from decomp.vectors import Array, dot, norm
 
 STENCIL = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60
@@ -26,6 +27,10 @@ LONGEST = 1e-3
 ROUNDS = 20
 DELTA = 1e-4
 AT_REST = 1e-14
+STRAIGHT = 1e-12
+"""An edge that bends less, on the scale of the size, is straight."""
+WAY = 0.1
+"""The longest step of a secant."""
 
 
 class Osculation:
@@ -55,7 +60,7 @@ class Osculation:
         """
         feet, ways = self.place(spots)
         bend = dot(self._curvature(feet), ways)
-        radius = np.where(bend > 1e-12 / self._size, 1 / np.where(bend > 0, bend, 1.0), np.inf)
+        radius = np.where(bend > STRAIGHT / self._size, 1 / np.where(bend > 0, bend, 1.0), np.inf)
         reach = np.where(np.isfinite(radius), radius, 0.0)
         return feet, ways, radius, feet + reach[:, None] * ways
 
@@ -70,7 +75,7 @@ class Osculation:
         slope = self.slope(spots, across)
         value = self.miss(spots)
         for _ in range(ROUNDS):
-            step = np.clip(-value / slope, -0.1, 0.1)
+            step = np.clip(-value / slope, -WAY, WAY)
             reach = reach + step
             if float(np.abs(step).max(initial=0.0)) <= AT_REST:
                 break
@@ -85,7 +90,7 @@ class Osculation:
         both = np.concatenate([spots + DELTA * across, spots - DELTA * across])
         ahead, behind = np.split(self.miss(both), 2)
         found = (ahead - behind) / (2 * DELTA)
-        return np.where(found == 0, 1e-300, found)
+        return np.where(found == 0, TINY, found)
 
     @cached_property
     def _scale(self) -> float:

@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree  # type: ignore[import-untyped]
 
 from decomp.complex.model import CurveElement
 from decomp.skeletons.curves.pieces import CurvePiece
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 SHARE = 0.25
@@ -28,6 +29,8 @@ ASIDE = 0.5
 """A chord's middle is not placed farther from it than this part of its length."""
 ROUNDING = 1e-13
 """What stands out by less than this part of the size does so by rounding."""
+PARALLEL = 1e-12
+"""Square of the sine of the angle between chords below which they are parallel."""
 
 
 def parted(
@@ -106,11 +109,11 @@ def _gaps(one: Array, other: Array, pairs: Ints) -> Array:
     p, q = one[pairs[:, 0]], other[pairs[:, 1]]
     u, v = one[pairs[:, 0] + 1] - p, other[pairs[:, 1] + 1] - q
     way = p - q
-    uu, vv = np.maximum(dot(u, u), 1e-300), np.maximum(dot(v, v), 1e-300)
+    uu, vv = np.maximum(dot(u, u), TINY), np.maximum(dot(v, v), TINY)
     uv, uw, vw = dot(u, v), dot(u, way), dot(v, way)
     best = np.full(len(pairs), np.inf)
     square = uu * vv - uv**2
-    clear = square > 1e-12 * uu * vv
+    clear = square > PARALLEL * uu * vv
     s = np.where(clear, (uv * vw - vv * uw) / np.where(clear, square, 1.0), 0.0)
     # inside both, or at one of the four ends
     for first in (s, np.zeros_like(s), np.ones_like(s)):

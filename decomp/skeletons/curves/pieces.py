@@ -21,6 +21,8 @@ from decomp.vectors import Array, Ints, norm
 
 LEAST = 10
 """A piece from a node back to it is longer than so many times `ONE_NODE`."""
+AT_CORNER = 1e-6
+"""Places nearer to the end of a chord than this part of it are at it."""
 ON = 3e-8
 """Nodes nearer to a curve than this part of the size lie on it."""
 SPACING = 1e-2
@@ -169,7 +171,7 @@ def _cut(piece: CurvePiece, nodes: Array, tree: cKDTree, size: float) -> list[Cu
             if (piece.ends and number in piece.ends) or not length[k]:
                 continue
             along = float((nodes[number] - piece.points[k]) @ chords[k]) / float(length[k]) ** 2
-            if not -1e-6 <= along < 1 + 1e-6:
+            if not -AT_CORNER <= along < 1 + AT_CORNER:
                 continue
             off = float(norm(nodes[number] - piece.points[k] - along * chords[k]))
             if off > 0.2 * length[k] + ON * size:
@@ -210,7 +212,7 @@ def _split(piece: CurvePiece, nodes: Array, stops: list[tuple[float, int]]) -> l
         cycle = piece.points
     parts = []
     for (a, one), (b, two) in itertools.pairwise(bounds):
-        low, high = int(np.floor(a + 1e-6)) + 1, int(np.ceil(b - 1e-6)) - 1
+        low, high = int(np.floor(a + AT_CORNER)) + 1, int(np.ceil(b - AT_CORNER)) - 1
         inner = cycle[low : high + 1]
         points = np.concatenate([nodes[one][None], inner, nodes[two][None]])
         if len(points) < 3:

@@ -22,6 +22,7 @@ from decomp.curves.circle import Circle
 from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.reflexive_loci import Locus, circle_axis, locus_of
+from decomp.tolerance import TOLERANCE
 from decomp.vectors import Array, Bools, norm
 
 ZERO = 1e-10
@@ -45,6 +46,12 @@ PARTS = 32
 """Parts into which an interval is cut to narrow down where zeros are."""
 NARROWER = 10
 """How often: each time it becomes a sixteenth."""
+AT_REST = 1e-15
+"""Ends are found to this part of the size."""
+BEYOND = 1e-6
+"""So far beyond an end it is asked what is nearer there, in units of the size."""
+DIFFERENCE = 1e-6
+"""Step of differences along a locus, in units of the size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,7 +147,7 @@ def _touched(incidence: Incidence, centre: Array, ways: Array, radius: float) ->
     half = centre + TOWARDS * radius * ways
     inside, depth = incidence.context.queries.depth(half)
     gap = np.abs(depth - (1 - TOWARDS) * radius)
-    return np.asarray(inside & (gap <= 1e-9 * incidence.boundary.diagonal))
+    return np.asarray(inside & (gap <= incidence.boundary.tolerances.same))
 
 
 class _Search:
@@ -224,13 +231,13 @@ class _Search:
     def _part(self, a: float, b: float) -> ReflexivePart | None:
         locus = self._locus
         low, high = locus.span
-        if locus.closed and b - a >= (high - low) * (1 - 1e-9):
+        if locus.closed and b - a >= (high - low) * (1 - TOLERANCE):
             start, end, others = low, high, (-1, -1)
         else:
             start, one = self._end(a, -1.0)
             end, two = self._end(b, 1.0)
             others = (one, two)
-            if end - start <= 1e-9 * self._size:
+            if end - start <= TOLERANCE * self._size:
                 start = end = (start + end) / 2
         middle = np.array([(start + end) / 2])
         centre = locus.point(middle)
@@ -264,9 +271,9 @@ class _Search:
             beyond_zero = np.append(self._depth(cuts[1:-1]) > self._zero, True)
             first = int(np.argmax(beyond_zero))
             inside, outside = float(cuts[first]), float(cuts[first + 1])
-            if abs(outside - inside) <= 1e-15 * self._size:
+            if abs(outside - inside) <= AT_REST * self._size:
                 break
-        beyond = inside + sense * 1e-6 * self._size
+        beyond = inside + sense * BEYOND * self._size
         near = self._incidence.context.index.nearest(self._locus.point(np.array([beyond])))
         if near.region[0] != self._incidence.region:
             return inside, -1
@@ -295,7 +302,7 @@ class _Search:
 
         def change(v: float) -> float:
             """Derivative of the gap."""
-            h = 1e-6 * self._size
+            h = DIFFERENCE * self._size
             at = np.array([v - h, v, v + h])
             behind, here, ahead = self._locus.point(at)
             field = site_fields(it.context, which, here[None], foot)
@@ -307,7 +314,7 @@ class _Search:
             # where the distances only touch their difference is least, its derivative is zero
             one, two = function(a), function(b)
             if one * two < 0 and min(abs(one), abs(two)) > NOISE * max(abs(one), abs(two)):
-                return float(brentq(function, a, b, xtol=1e-15 * self._size, rtol=1e-15))
+                return float(brentq(function, a, b, xtol=AT_REST * self._size, rtol=AT_REST))
         for part in NEARER:
             step = sense * part * self._size
             # among the zeros the foot is not the nearest one of its edge, so they are not asked

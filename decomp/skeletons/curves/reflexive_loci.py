@@ -15,6 +15,11 @@ from decomp.carriers import Carrier, Cone, Cylinder, Torus
 from decomp.curves.circle import Circle
 from decomp.vectors import Array, cross, frame, norm
 
+DIFFERENCE = 1e-6
+"""Step of differences along a locus, as a part of the size."""
+ASIDE = 1e-7
+"""Radius of the circle around a locus, as a part of the size."""
+
 
 @dataclass(frozen=True, eq=False)
 class Locus:
@@ -118,11 +123,11 @@ def _touched_circle(
     """Directions to the feet of points on a small circle around the locus."""
 
     def touched(u: float, count: int) -> Array:
-        h = 1e-6 * size
+        h = DIFFERENCE * size
         behind, here, ahead = point(np.array([u - h, u, u + h]))
         x, y = frame((ahead - behind) / float(norm(ahead - behind)))
         angle = np.linspace(0, 2 * np.pi, count, endpoint=False)[:, None]
-        ways = foot(here + 1e-7 * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
+        ways = foot(here + ASIDE * size * (np.cos(angle) * x + np.sin(angle) * y)) - here
         return np.asarray(ways / norm(ways)[:, None])
 
     return touched

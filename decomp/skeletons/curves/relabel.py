@@ -23,6 +23,9 @@ from decomp.skeletons.curves.pieces import Contact, CurvePiece
 from decomp.vectors import Array, Ints, norm
 
 TOWARDS = 0.3
+"""How far towards a foot it is asked which site has it."""
+NO_BALL = 1e-6
+"""A ball on a vertex that is smaller than this part of the size is none: no ray leaves there."""
 
 
 def merging_rays(incidence: Incidence) -> list[CurvePiece]:
@@ -44,7 +47,7 @@ def merging_rays(incidence: Incidence) -> list[CurvePiece]:
             continue
         balls = inscribed_balls(incidence.context, vertex.point[None], way[None])
         radius = float(balls.radius[0])
-        if radius <= 1e-6 * boundary.diagonal:
+        if radius <= NO_BALL * boundary.diagonal:
             continue
         sites = tuple(sorted({site for pair in pairs for site in pair}))
         points = vertex.point + np.linspace(0, radius, 5)[:, None] * way

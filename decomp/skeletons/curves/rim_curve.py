@@ -9,6 +9,7 @@ import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline  # type: ignore[import-untyped]
 
 from decomp.skeletons.curves.osculation import Osculation
+from decomp.tolerance import TINY
 from decomp.vectors import Array, dot, norm
 
 APPROACHES = 4
@@ -44,7 +45,7 @@ class RimCurve:
         for _ in range(CORRECTIONS):
             spots, step = self._spline(along)[:, :2], self._spline(along, 1)
             across = step[:, 1::-1] * np.array([-1.0, 1.0])
-            across = across / np.maximum(norm(across), 1e-300)[:, None]
+            across = across / np.maximum(norm(across), TINY)[:, None]
             exact = self.spheres.balls(self.spheres.onto(spots, across))[3]
             move = dot(points - exact, step[:, 2:5]) / dot(step[:, 2:5], step[:, 2:5])
             along = np.clip(along + move, 0.0, self._chords[-1])
@@ -66,7 +67,7 @@ class RimCurve:
     def _along(self, points: Array) -> Array:
         """The parameters (k,) of the feet of points (k, 3): the length of chords before them."""
         start, chord = self.points[:-1], np.diff(self.points, axis=0)
-        square = np.maximum(dot(chord, chord), 1e-300)
+        square = np.maximum(dot(chord, chord), TINY)
         share = np.clip(dot(points[:, None] - start, chord) / square, 0.0, 1.0)
         k = np.argmin(norm(points[:, None] - start - share[..., None] * chord), axis=1)
         part = share[np.arange(len(points)), k]

@@ -47,6 +47,8 @@ NEAR = 0.02
 """A foot nearer to the first one than this part of the radius is about to run together with it."""
 KNOWN = 65
 """Spots of a rim that are known at least."""
+SAME_SIDE = 1e-12
+"""Spots on the same side of two cells differ by rounding."""
 
 
 def rim_pieces(incidence: Incidence) -> list[CurvePiece]:
@@ -114,7 +116,7 @@ class _EdgeRims:
         number = np.arange(len(found.spots))
         for k in np.flatnonzero(found.spots[:, 0] == along[-1]):
             gaps = np.abs(found.spots - [along[0], found.spots[k, 1]]).max(axis=1)
-            if gaps.min() < 1e-12:
+            if gaps.min() < SAME_SIDE:
                 number[k] = int(np.argmin(gaps))
         return found.spots, number[found.links]
 

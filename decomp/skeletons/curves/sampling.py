@@ -9,10 +9,17 @@ from __future__ import annotations
 import numpy as np
 
 from decomp.complex.model import CurveElement
+from decomp.tolerance import TINY
 from decomp.vectors import Array, dot, norm
 
 ROUNDS = 8
 FINE = 1 / 16
+STRAIGHT = 1e-4
+"""A curve that turns by less (radians) is straight."""
+NEARLY = 1e-3
+"""A part of a chord so short is none."""
+EVENNESS = 0.05
+"""How much of the measure is length, where all else is curvature."""
 
 
 def sampled(element: CurveElement, points: Array, tolerance: float, least: int = 1) -> Array:
@@ -34,14 +41,14 @@ def sampled(element: CurveElement, points: Array, tolerance: float, least: int =
     both = np.concatenate([weight[:1], weight, weight[-1:]])
     per_chord = (both[:-1] + both[1:]) / 2 * lengths
     integral = np.concatenate([[0.0], np.cumsum(per_chord)])
-    straight = float(integral[-1]) * np.sqrt(8 * tolerance / max(total, 1e-300)) < 1e-4
-    count = max(least, 1 if straight else int(np.ceil(integral[-1] - 1e-3)))
+    straight = float(integral[-1]) * np.sqrt(8 * tolerance / max(total, TINY)) < STRAIGHT
+    count = max(least, 1 if straight else int(np.ceil(integral[-1] - NEARLY)))
     if count == 1:
         return np.asarray(dense[[0, -1]])
     if straight or integral[-1] <= 0:
         integral = along
     # a little evenness keeps samples apart where the curvature vanishes
-    measure = integral / integral[-1] + 0.05 * along / total
+    measure = integral / integral[-1] + EVENNESS * along / total
     stops = measure[-1] * np.arange(1, count) / count
     where = np.interp(stops, measure, along)
     guess = np.stack([np.interp(where, along, dense[:, k]) for k in range(3)], axis=1)
@@ -67,8 +74,8 @@ def _densified(element: CurveElement, points: Array, tolerance: float) -> Array:
 
 def _curvature(chords: Array, lengths: Array) -> Array:
     """Curvature (k - 2,) at the inner points of a polyline of k points."""
-    directions = chords / np.maximum(lengths, 1e-300)[:, None]
+    directions = chords / np.maximum(lengths, TINY)[:, None]
     cosine = np.clip(dot(directions[:-1], directions[1:]), -1.0, 1.0)
     turn = norm(directions[1:] - directions[:-1])
     turn = np.where(cosine > 0.9, turn, np.arccos(cosine))
-    return np.asarray(turn / np.maximum((lengths[:-1] + lengths[1:]) / 2, 1e-300))
+    return np.asarray(turn / np.maximum((lengths[:-1] + lengths[1:]) / 2, TINY))

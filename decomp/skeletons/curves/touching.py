@@ -17,6 +17,7 @@ from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.pieces import CurvePiece
 from decomp.skeletons.seams.minima import least_values
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, norm
 
 CLOSE = 0.05
@@ -64,7 +65,7 @@ def _measures(incidence: Incidence, site: int, near: Array) -> list[Measure]:
         def angle(face: int) -> Measure:
             def measure(points: Array) -> Array:
                 q = feet(points)
-                way = (points - q) / np.maximum(norm(points - q), 1e-300)[:, None]
+                way = (points - q) / np.maximum(norm(points - q), TINY)[:, None]
                 return norm(way - incidence.inward(face, q))
 
             return measure

@@ -13,6 +13,8 @@ STEPS = (1e-3, 1e-4, 1e-5)
 """Steps, as parts of the curve, by which it is seen whether a root is a double one, and placed."""
 ZERO = 1e-10
 """The least difference at a double root, as a part of the size."""
+AT_REST = 1e-16
+"""Steps below this, relative to the parameter, are the last ones."""
 
 
 def change(gap: Callable[[float], float], a: float, b: float, span: float, size: float) -> float:
@@ -43,7 +45,7 @@ def _secant(f: Callable[[float], float], a: float, b: float) -> float:
         if fa == fb:
             break
         c = b - fb * (b - a) / (fb - fa)
-        if abs(c - b) <= 1e-16 * (1 + abs(c)):
+        if abs(c - b) <= AT_REST * (1 + abs(c)):
             return c
         a, fa, b, fb = b, fb, c, f(c)
     return b

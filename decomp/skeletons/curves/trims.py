@@ -52,6 +52,8 @@ CREPT, RUN_TOGETHER = 1e-7, 1e-3
 measured by the ball too: close to a convex vertex balls are small."""
 LOCUS = 1e-8
 """Centres nearer to a reflexive locus than this part of the size lie on it."""
+ONE_PLACE = 1e-15
+"""Parameters that differ by less than this part of them differ by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -271,7 +273,7 @@ class TrimScanner:
             halved = []
             for it in changing:
                 a, b = it.low, it.high
-                if depth == HALVINGS or b.s - a.s <= 1e-15 * (abs(a.s) + abs(b.s)):
+                if depth == HALVINGS or b.s - a.s <= ONE_PLACE * (abs(a.s) + abs(b.s)):
                     found[it.curve].append((a, b))
                 else:
                     halved.append(it)

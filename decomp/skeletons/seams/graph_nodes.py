@@ -24,6 +24,8 @@ from decomp.vectors import Array, norm
 
 CELL = 1e-3
 ENDING = 1e-5
+NEAR = 1e-4
+"""Junctions are nearer to where a seam was seen to end than this part of the size."""
 
 
 class OversteppedError(GeometryError):
@@ -81,7 +83,7 @@ class GraphNodes:
         feet = np.concatenate([last.feet, foot[None]])[None]
         found = balanced(self._points.table, self._size, which, last.point[None], feet)
         point = found.points[0]
-        if not float(norm(point - last.point)) <= 1e-4 * self._size:
+        if not float(norm(point - last.point)) <= NEAR * self._size:
             raise GeometryError(
                 "the junction at the end of a seam near {at} is lost",
                 self._points.names([*last.sites, intruder]),

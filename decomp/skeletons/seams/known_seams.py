@@ -10,6 +10,7 @@ import numpy as np
 from decomp.skeletons.balls.equidistance import balanced
 from decomp.skeletons.balls.supports import SupportTable
 from decomp.skeletons.seams.seam_graph_model import Seam
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 ASIDE = 0.2
@@ -149,4 +150,4 @@ def _line(seam: Seam) -> _Line:
         points, feet = np.concatenate([points, points[:1]]), np.concatenate([feet, feet[:1]])
     way = np.diff(points, axis=0)
     square = dot(way, way)
-    return _Line(points, feet, way, np.sqrt(square), np.maximum(square, 1e-300))
+    return _Line(points, feet, way, np.sqrt(square), np.maximum(square, TINY))

@@ -36,6 +36,10 @@ MOVED = 0.01
 JUMP = 50.0
 """A far foot jumps if it moves by more than this multiple of the near one's way."""
 INWARD = 1e-7
+SMALL = 1e-6
+"""Balls smaller than this part of the size lie in an edge: their feet tell of no seam."""
+CLOSE = 1e-3
+"""Centres on both sides of a jump are closer to each other than this part of the radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,9 +191,9 @@ def _between(
         second = np.where(upper[:, None], second, middle)
         low, high = _chosen(upper, new, low), _chosen(upper, high, new)
         keep = _differ(low, high, first, second)
-    near = norm(low.centre - high.centre) <= 1e-3 * np.minimum(low.radius, high.radius)
+    near = norm(low.centre - high.centre) <= CLOSE * np.minimum(low.radius, high.radius)
     near &= norm(low.foot - high.foot) > JUMP * norm(first - second)
-    near &= low.radius > 1e-6 * size
+    near &= low.radius > SMALL * size
     feet = np.stack([first, low.foot, high.foot], axis=1)[near]
     return low.centre[near], feet
 

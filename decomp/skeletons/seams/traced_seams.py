@@ -8,7 +8,7 @@ import numpy as np
 
 from decomp.skeletons.seams.seam_graph_model import Node, Seam
 from decomp.skeletons.seams.steps.states import Traced
-from decomp.tolerance import AT_END
+from decomp.tolerance import AT_END, TINY
 from decomp.vectors import Array, Bools, dot, norm
 
 
@@ -74,7 +74,7 @@ def _before(points: Array, node: Node, size: float) -> Bools:
     """
     near = norm(points - node.point) <= AT_END * size
     way, before = np.diff(points, axis=0), node.point - points[:-1]
-    part = dot(before, way) / np.maximum(dot(way, way), 1e-300)
+    part = dot(before, way) / np.maximum(dot(way, way), TINY)
     off = norm(before - part[:, None] * way)
     near[1:] |= (part > 0) & (part <= 1) & (off <= AT_END * size)
     return np.asarray(np.cumsum(near) == 0)

@@ -14,6 +14,7 @@ from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.sheets.drawn_sheets import SheetPart
 from decomp.skeletons.sheets.sheet_surface import SheetSurface
 from decomp.skeletons.sheets.trim_maker import BoundaryVertices
+from decomp.tolerance import TINY
 from decomp.vectors import Array, Ints, cross, dot, norm
 
 Pair = tuple[int, int]
@@ -114,7 +115,7 @@ def with_vertex(points: Array, triangles: Ints, vertex: int) -> Ints:
     a, b, c = (points[triangles[:, k]] for k in range(3))
     p = points[vertex]
     normal = cross(b - a, c - a)
-    area = np.maximum(dot(normal, normal), 1e-300)
+    area = np.maximum(dot(normal, normal), TINY)
     weights = [dot(cross(v - u, p - u), normal) / area for u, v in ((a, b), (b, c), (c, a))]
     # how far the point is outside a triangle's prism, then how far from its plane
     outside = np.maximum(-np.minimum.reduce(weights), 0.0)

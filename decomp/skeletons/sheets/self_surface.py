@@ -16,7 +16,7 @@ from decomp.skeletons.balls.fields import site_fields
 from decomp.skeletons.curves.edge_wells import EdgeWells
 from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.curves.rim_curve import RimCurve
-from decomp.tolerance import CONVERGED
+from decomp.tolerance import CONVERGED, TINY
 from decomp.vectors import Array, Bools, Ints, dot, norm
 
 MERGED = 1e-6
@@ -93,14 +93,14 @@ class SelfSheetSurface:
             tried = moved[rows] + scale[rows, None] * step[rows]
             feet, apart = self._feet(tried, known[rows])
             away = tried[:, None] - feet
-            distance = np.maximum(norm(away), 1e-300)
+            distance = np.maximum(norm(away), TINY)
             gap = distance[:, 0] - distance[:, 1]
             better = apart & (np.abs(gap) < best[rows])
             merged[rows[~apart]] = True
             kept = rows[better]
             ways = away[better] / distance[better][..., None]
             gradient = ways[:, 0] - ways[:, 1]
-            square = np.maximum(dot(gradient, gradient), 1e-300)
+            square = np.maximum(dot(gradient, gradient), TINY)
             moved[kept], best[kept] = tried[better], np.abs(gap[better])
             step[kept] = -(gap[better] / square)[:, None] * gradient
             scale[kept] = 1.0

@@ -18,6 +18,9 @@ from decomp.skeletons.curves.incidence import Incidence
 from decomp.skeletons.sheets.sheet_family import CLEAR, SheetFamily, difference
 from decomp.vectors import Array, Bools, Ints, norm
 
+STEEP = 1e-3
+"""Gradients of two sites that differ by more give the sheet a normal."""
+
 
 @dataclass(frozen=True, eq=False)
 class SheetSurface:
@@ -101,7 +104,7 @@ class SheetSurface:
         lost = length <= CLEAR
         if lost.any():
             known = self._difference(self.points, self.feet)
-            good = np.flatnonzero(norm(known) > 1e-3)
+            good = np.flatnonzero(norm(known) > STEEP)
             if not len(good):
                 raise GeometryError("the sheet at {at} has no normal", at=points[lost][0])
             nearest = cKDTree(self.points[good]).query(points[lost])[1]

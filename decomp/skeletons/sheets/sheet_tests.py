@@ -16,6 +16,8 @@ OFF = 1e-6
 """How far off a foot it is asked whether the foot is on the boundary, as a part of the size."""
 NEARER = 0.3
 """How far towards a foot it is asked which site has it."""
+ASIDE = 1e-3
+"""Off a foot the boundary is as far as the step, but for this part of it."""
 
 
 class SheetTests:
@@ -33,7 +35,7 @@ class SheetTests:
         """Whether feet (k, 3) are on a site, as seen in directions into the region (k, 3)."""
         step = OFF * self._size
         near = self._index.nearest(feet + step * inward)
-        on = (near.region == self._incidence.region) & (np.abs(near.distance - step) < 1e-3 * step)
+        on = (near.region == self._incidence.region) & (np.abs(near.distance - step) < ASIDE * step)
         if self._incidence.sites[site].kind is SiteKind.FACE:
             on &= near.site == site
         return np.asarray(on)

@@ -23,6 +23,10 @@ from decomp.vectors import Array, Bools, Ints, cross, dot, norm
 
 STRAIGHT = 1e-9
 """The area of a triangle on a straight line, in parts of the square of its side."""
+AT_START = 1e-6
+"""Parameters so little before the start, as a part of the period, are at it."""
+DIFFERENCE = 1e-4
+"""Step of differences along a curve, as a part of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -315,7 +319,7 @@ class TrimMaker:
         """The sign that makes normals point from the second site's side to the first's."""
         middle = np.array([(curve.start + curve.end) / 2])
         feet, ways = curve.feet(middle), curve.directions(middle)
-        h = 1e-4 * (curve.end - curve.start)
+        h = DIFFERENCE * (curve.end - curve.start)
         either = curve.feet(middle + h) - curve.feet(middle - h)
         if isinstance(curve, VertexNormals):
             either = curve.directions(middle + h) - curve.directions(middle - h)
@@ -341,7 +345,7 @@ class TrimMaker:
 
 def _from(loop: Ints, s: Array, start: float, period: float) -> tuple[Ints, Array]:
     """A closed polyline that starts at its vertex of a given parameter."""
-    slack = 1e-6 * period
+    slack = AT_START * period
     s = start - slack + np.mod(s[:-1] - start + slack, period)
     order = np.argsort(s, kind="stable")
     turned, s = loop[:-1][order], s[order]

@@ -13,6 +13,8 @@ from decomp.vectors import Array, Bools
 
 GAPS = 3
 ALONG = 48
+WIDE = 1e-3
+"""A gap wide enough for a cut, as a part of the period."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +72,7 @@ def unrolled(domain: Domain, uv: Array, passes: Callable[[Array], Bools]) -> Dom
             at = float(values[i] + gap[i] / 2)
             line = np.empty((ALONG, 2))
             line[:, k], line[:, other] = at, across
-            if gap[i] > 1e-3 * period and not passes(line).any():
+            if gap[i] > WIDE * period and not passes(line).any():
                 start[k] = at
                 break
     if start == [None, None]:

@@ -28,6 +28,8 @@ BENT = 0.1
 """Roots grow evenly with the way from the end, but for this part."""
 
 Settle = Callable[[State], State | None]
+APART = 1e-3
+"""Roots differ by more than this part of the least."""
 
 
 def landing(
@@ -87,4 +89,4 @@ def _all(states: Iterable[State | None]) -> list[State]:
 
 def _distinct(roots: Array) -> bool:
     """Whether roots are all different and none vanishes."""
-    return bool(roots.min() > 0 and np.diff(np.sort(roots)).min() > 1e-3 * roots.min())
+    return bool(roots.min() > 0 and np.diff(np.sort(roots)).min() > APART * roots.min())

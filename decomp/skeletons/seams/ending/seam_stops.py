@@ -31,6 +31,13 @@ AT_VERTEX = 1e-4
 """Feet lost while they run together are nearer to their vertex than this part of the size."""
 NEAR_WALL = 1e-3
 """Feet beyond a wall but not noticed yet are nearer to it than this part of the size."""
+AHEAD = (1e-6, 1e-5)
+"""Steps ahead of a fin on which feet leave their sites, as parts of the size."""
+TOUCHED = 1e-10
+"""Sites no farther than this part of the size beyond the nearest are touched where one joins."""
+BEFORE, LONGER, PAST = 1e-3, 1.02, 1e-6
+"""A wall is looked for from so much before the first point to so much past the last, in parts of
+the way between; and by a part of the size more at both ends."""
 
 
 class SeamStops:
@@ -66,7 +73,7 @@ class SeamStops:
         crossings is the one. None if there is none.
         """
         beyond = stretch.state(count)
-        touching = self._points.contacts.at(beyond.point, 1e-10 * self._size)
+        touching = self._points.contacts.at(beyond.point, TOUCHED * self._size)
         best: tuple[int, State] | None = None
         first = np.inf
         for foot, members in zip(touching.feet, touching.sites, strict=True):
@@ -90,7 +97,7 @@ class SeamStops:
         found by extrapolation to no gap, see `fins`.
         """
         last = stretch.state(count - 1)
-        for length in (1e-6, 1e-5):
+        for length in AHEAD:
             step = length * self._size
             if not advance(self._points.table, stretch.track, count - 1, count, step, False):
                 continue
@@ -175,9 +182,9 @@ class SeamStops:
             for base in range(count - 1, max(count - 4, -1), -1):
                 # from a row before the change to the point beyond it
                 high = float(norm(stretch.track.points[count] - stretch.track.points[base]))
-                low = 0.0 if base else -1e-3 * high - 1e-6 * self._size
+                low = 0.0 if base else -BEFORE * high - PAST * self._size
                 spot = np.array(foot)
-                high = 1.02 * high + 1e-6 * self._size
+                high = LONGER * high + PAST * self._size
                 between = low, high
                 found = cross(self._points.table, wall, stretch.track, base, spare, between, spot)
                 if found == JOINS:

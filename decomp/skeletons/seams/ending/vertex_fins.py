@@ -23,6 +23,8 @@ from decomp.vectors import Array, norm
 STEPS = 20
 ACROSS = 1e-3
 """Conditions on the line that differ less than this are one."""
+AT_REST = 1e-16
+"""Steps below this part of the size are the last ones."""
 
 
 def at_vertex(
@@ -61,7 +63,7 @@ def at_vertex(
         foot = at.foot[0]
         step = float(at.distance[0] - radius) / (1 - float(at.gradient[0] @ way))
         radius += step
-        if abs(step) <= 1e-16 * points.size:
+        if abs(step) <= AT_REST * points.size:
             break
     point = v + radius * way
     if float(norm(point - state.point)) > near:

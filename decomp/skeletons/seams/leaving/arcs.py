@@ -40,6 +40,8 @@ AHEAD = 1e-3
 """Whether an axis goes on is seen so many radii ahead."""
 INSIDE = 1e-6
 """An arc lies inside a facet's plane unless its gradients leave it by more than this."""
+AT_REST = 1e-16
+"""A place on an axis is found to this part of the size."""
 
 
 class Arcs:
@@ -189,7 +191,7 @@ class Arcs:
         step = NEAR * self._size
         if gap(-step) * gap(step) > 0:
             return None
-        return np.asarray(centre + brentq(gap, -step, step, xtol=1e-16 * self._size) * axis)
+        return np.asarray(centre + brentq(gap, -step, step, xtol=AT_REST * self._size) * axis)
 
     def _face_of(self, number: int) -> int:
         site = self._sites[number]

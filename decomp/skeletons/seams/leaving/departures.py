@@ -37,6 +37,8 @@ SAME = 1e-2
 NEARER = 0.1
 ASIDE = 0.5
 """Seams farther aside than this part of the way ahead leave in another direction."""
+IN_LINE = 1e-12
+"""Corners span a facet if it has at least this area: no three are in line."""
 
 
 def departures(
@@ -185,7 +187,7 @@ def _cells(
     for triple in combinations(range(len(gradients)), 3):
         first, *rest = triple
         matrix = plane[rest] - plane[first]
-        if abs(np.linalg.det(matrix)) <= 1e-12:
+        if abs(np.linalg.det(matrix)) <= IN_LINE:
             continue
         u = np.linalg.solve(matrix, distance[first] - distance[rest])
         value = distance + plane @ u
