@@ -59,7 +59,7 @@ def loads(text: str, form: str, name: str = "model", path: str | Path | None = N
     Raises:
         InputError: there is no such format.
         ParseError: the text is wrong.
-        UnsupportedError: it uses what lies outside the five primitives and similarities.
+        UnsupportedError: it uses other surfaces or maps than those that solids are made of here.
     """
     from decomp.formats.source import Source
 
