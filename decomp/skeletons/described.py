@@ -10,7 +10,6 @@ import numpy as np
 from decomp.complex.model import Complex, LineKind
 from decomp.sites.site import SiteKind
 from decomp.skeletons.assembly import RegionParts
-from decomp.skeletons.balls.queries import RegionQueries
 from decomp.skeletons.curves.region_curves import RegionCurves
 from decomp.skeletons.model import Junction, Parity, Reflexive, Sheet, SkeletonLine
 from decomp.skeletons.radius_along import ranges_along
@@ -23,7 +22,6 @@ class RegionDescription:
     """Sheets, lines, junctions and reflexive loci of one region.
 
     Args:
-        queries: of the region.
         curves: of its skeleton.
         parts: its contribution to the complex.
         mesh: the complex, refined.
@@ -35,7 +33,6 @@ class RegionDescription:
 
     def __init__(
         self,
-        queries: RegionQueries,
         curves: RegionCurves,
         parts: RegionParts,
         mesh: Complex,
@@ -44,7 +41,8 @@ class RegionDescription:
         patches: Sequence[int],
         lines: Sequence[int],
     ) -> None:
-        self._queries, self._curves, self._parts = queries, curves, parts
+        self._queries = curves.incidence.context.queries
+        self._curves, self._parts = curves, parts
         self._mesh, self._radius, self._number = mesh, radius, number
         self._patches, self._lines = patches, lines
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from decomp.complex.model import Complex
 from decomp.geometry import Geometry
 from decomp.skeletons.assembly import RegionParts
-from decomp.skeletons.balls.queries import region_queries
 from decomp.skeletons.cells.partition import face_cells, skeleton_cells
 from decomp.skeletons.certificate.certificate import Certified
 from decomp.skeletons.certificate.evidence import Evidence
@@ -55,7 +54,6 @@ class TracedRegion:
         """
         boundary = geometry.regions[self.number]
         drawn = RegionDescription(
-            region_queries(geometry.index, self.number),
             self.curves,
             self.parts,
             mesh,

@@ -3,6 +3,9 @@
 A site's support is its untrimmed extent: a face's carrier, an edge's curve near a known foot, a
 vertex's point. So the distance is smooth where the site itself ends. All reentrant and smooth edges
 and all vertices have supports, whether they are sites or not.
+
+Kernels take a point as three numbers, as they return it; so the lists of arguments of those for
+feet and distances are long: a point, a foot close by, and what they are looked for on.
 """
 
 from __future__ import annotations
