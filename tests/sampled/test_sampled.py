@@ -40,18 +40,18 @@ def areas(skeleton: Skeleton, region: RegionSkeleton) -> dict[frozenset[str], fl
     return dict(found)
 
 
-def sampled(name: str) -> Skeleton:
+def sampled(solid: decomp.Solid) -> Skeleton:
     """A sampled skeleton; TetWild is not repeatable, so one that is refused is tried once more."""
     try:
-        return decomp.skeleton(SOLIDS[name].make(), method="sampled")
+        return decomp.skeleton(solid, method="sampled")
     except GeometryError:
-        return decomp.skeleton(SOLIDS[name].make(), method="sampled")
+        return decomp.skeleton(solid, method="sampled")
 
 
 @pytest.mark.parametrize("name", AGREES)
 def test_a_sampled_skeleton_is_the_traced_one(name: str) -> None:
     traced = skeleton_of(name)
-    found = sampled(name)
+    found = sampled(SOLIDS[name].make())
     one, two = found.regions[0], traced.regions[0]
     assert (one.method, two.method) == (Method.SAMPLED, Method.TRACED)
     ours, theirs = areas(found, one), areas(traced, two)
@@ -88,7 +88,7 @@ def test_round_parts_have_their_axes_and_centres(name: str) -> None:
     part of all sheets.
     """
     traced = skeleton_of(name)
-    found = sampled(name)
+    found = sampled(SOLIDS[name].make())
     one, two = found.regions[0], traced.regions[0]
     ours, theirs = areas(found, one), areas(traced, two)
     assert ours.keys() == theirs.keys()
@@ -112,7 +112,7 @@ def test_round_parts_have_their_axes_and_centres(name: str) -> None:
 
 def test_the_axis_of_a_rod_is_exact_and_ends_in_its_cones() -> None:
     rod = decomp.Cylinder((0, 0, 0), (0, 0, 6), 1)
-    found = decomp.skeleton(rod, method="sampled")
+    found = sampled(rod)
     (axis,) = found.regions[0].reflexive
     assert axis.line is not None
     points = found.complex.points[found.complex.lines[axis.line].vertices]
@@ -129,7 +129,7 @@ def test_the_axis_of_a_rod_is_exact_and_ends_in_its_cones() -> None:
 
 def test_two_cones_with_one_tip_meet_in_it() -> None:
     """A rod as long as it is wide has no axis left, and its centre is the tip of both cones."""
-    found = decomp.skeleton(decomp.Cylinder((0, 0, 0), (0, 0, 2), 1), method="sampled")
+    found = sampled(decomp.Cylinder((0, 0, 0), (0, 0, 2), 1))
     region = found.regions[0]
     assert (region.certificate.euler, len(region.sheets), region.reflexive) == (1, 2, ())
     one, two = (
