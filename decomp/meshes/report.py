@@ -109,7 +109,8 @@ class Quality:
         greatest_dihedral: of all.
         mean_dihedral: of all six of all.
         mean_least_dihedral: mean of each one's least.
-        least_radius_ratio, mean_radius_ratio: 3 r / R, 1 for regular ones.
+        least_radius_ratio: of all; the ratio is 3 r / R, 1 for regular ones.
+        mean_radius_ratio: of all.
         inverted: with a Jacobian of zero or less at a point of integration.
     """
 

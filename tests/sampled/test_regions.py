@@ -13,6 +13,7 @@ from decomp.cli.main import main
 from decomp.errors import ContactError, GeometryError
 from decomp.sampled import sampling
 from decomp.skeletons import drafts
+from decomp.skeletons.balls.region_context import RegionContext
 from decomp.skeletons.model import Method
 from decomp.ways.surfaces import surfaces_by
 
@@ -37,10 +38,10 @@ def refusing(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     names: list[str] = []
     actual = drafts.region_curves
 
-    def traced(index: object, boundary: object, region: int, samples: int) -> object:
-        if boundary.name in names:  # type: ignore[attr-defined]
+    def traced(context: RegionContext, samples: int) -> object:
+        if context.boundary.name in names:
             raise GeometryError("a seam goes astray")
-        return actual(index, boundary, region, samples)  # type: ignore[arg-type]
+        return actual(context, samples)
 
     monkeypatch.setattr(drafts, "region_curves", traced)
     return names
