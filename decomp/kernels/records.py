@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from llvmlite import ir
 from numba import typeof, types
+from numba.core import cgutils
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import (
     NativeValue,
@@ -140,11 +141,15 @@ class _Address(models.PrimitiveModel):  # type: ignore[misc]
 
 @unbox(RecordType)  # type: ignore[untyped-decorator]
 def _address_of(kind: RecordType, value: Any, c: Any) -> NativeValue:
+    # the address is had by Python code, in which a signal may raise an error: then there is none
     number = c.pyapi.object_getattr_string(value, "address")
-    address = c.pyapi.long_as_voidptr(number)
-    c.pyapi.decref(number)
+    address = cgutils.alloca_once_value(c.builder, ir.Constant(cgutils.voidptr_t, None))
+    with cgutils.if_likely(c.builder, cgutils.is_not_null(c.builder, number)):
+        c.builder.store(c.pyapi.long_as_voidptr(number), address)
+        c.pyapi.decref(number)
     return NativeValue(
-        c.builder.bitcast(address, WORD.as_pointer()), is_error=c.pyapi.c_api_error()
+        c.builder.bitcast(c.builder.load(address), WORD.as_pointer()),
+        is_error=c.pyapi.c_api_error(),
     )
 
 
