@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import NoReturn
 
-RAISED_AGAIN, AT_LAST = 2, 2
+RAISED_AGAIN, AT_LAST = 1, 2
 """Seconds after which the error is raised once more, and those after which the system ends us."""
 
 
