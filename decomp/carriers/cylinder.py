@@ -16,13 +16,12 @@ from decomp.carriers.axial import (
     nearest_to_origin,
     off_axis,
     round_reach,
-    straight_box,
 )
 from decomp.carriers.base import Carrier, Level, pack
 from decomp.carriers.charts import Chart, CylinderChart
 from decomp.carriers.straight_sides import StraightSides
 from decomp.similarity import Similarity
-from decomp.vectors import Array, cross, dot, norm
+from decomp.vectors import Array, cross, dot
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,21 +88,11 @@ class Cylinder(StraightSides):
     def width(self) -> float:
         return self.radius
 
-    @property
-    def remoteness(self) -> float:
-        return float(norm(nearest_to_origin(self.point, self.axis)))
-
-    def box(self) -> Array:
-        return straight_box(self.point, self.axis, self.section_reach())
-
     def section_reach(self) -> Array:
         return round_reach(self.axis, self.radius)
 
     def level(self, point: Array) -> Level | None:
         return Level(*circle_through(point, self.point, self.axis))
-
-    def section_kind(self, normal: Array) -> str:
-        return "ellipse"
 
     def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
         return CylinderChart(self.point, self.axis, self.radius)

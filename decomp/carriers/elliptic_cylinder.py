@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from decomp.carriers.axial import axis_deviation, nearest_to_origin, straight_box
+from decomp.carriers.axial import axis_deviation, nearest_to_origin
 from decomp.carriers.base import Carrier, Level, pack
 from decomp.carriers.charts import Chart, EllipticCylinderChart
 from decomp.carriers.point_ellipse import nearest_on_ellipse
@@ -111,22 +111,12 @@ class EllipticCylinder(StraightSides):
     def width(self) -> float:
         return self.a
 
-    @property
-    def remoteness(self) -> float:
-        return float(norm(nearest_to_origin(self.point, self.axis)))
-
-    def box(self) -> Array:
-        return straight_box(self.point, self.axis, self.section_reach())
-
     def section_reach(self) -> Array:
         return np.hypot(self.a * self.x, self.b * self.y)
 
     def level(self, point: Array) -> Level | None:
         centre = self.point + float((point - self.point) @ self.axis) * self.axis
         return Level(centre, self.x, self.y, self.a, self.b)
-
-    def section_kind(self, normal: Array) -> str:
-        return "ellipse"
 
     def chart(self, tip: bool = False, reach: float = 1.0, pole: Array | None = None) -> Chart:
         return EllipticCylinderChart(self.point, self.axis, self.x, self.a, self.b)

@@ -11,9 +11,9 @@ from abc import abstractmethod
 
 import numpy as np
 
-from decomp.carriers.axial import box_between, odd_side
+from decomp.carriers.axial import box_between, nearest_to_origin, odd_side, straight_box
 from decomp.carriers.base import Border, Carrier
-from decomp.vectors import Array, cross, dot
+from decomp.vectors import Array, cross, dot, norm
 
 
 class StraightSides(Carrier):
@@ -25,6 +25,16 @@ class StraightSides(Carrier):
     @abstractmethod
     def section_reach(self) -> Array:
         """How far (3,) the section reaches from the axis along the coordinates."""
+
+    @property
+    def remoteness(self) -> float:
+        return float(norm(nearest_to_origin(self.point, self.axis)))
+
+    def box(self) -> Array:
+        return straight_box(self.point, self.axis, self.section_reach())
+
+    def section_kind(self, normal: Array) -> str:
+        return "ellipse"
 
     def border_terms(
         self, border: Border, origin: Array, pole: Array | None

@@ -20,8 +20,6 @@ BOX_SLACK = 1e-6
 
 EVERYTHING = np.array(EVERYWHERE)
 NOTHING = -EVERYTHING
-AXIAL = 1e-15
-"""A component of a unit vector that lacks less to 1 is along the axis."""
 
 
 def extents(program: Program, carriers: tuple[Carrier, ...], slack: float) -> tuple[Array, Array]:

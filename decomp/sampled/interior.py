@@ -37,8 +37,6 @@ from decomp.vectors import Array, Ints
 
 CHORD = 0.4
 """How far the triangles to be filled may be off the boundary, in parts of its tolerance."""
-ON_FACES = 1e-12
-"""Nodes are on their faces to this part of the model's diagonal."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,8 +32,6 @@ OF_THICKNESS, OF_EDGE = 0.2, 0.12
 OF_THIN, SLENDER = 0.15, 3.0
 """And at most the first of the least thickness where the largest edges are more than so many times
 as long: nothing holds such triangles off each other in between."""
-EPSILON_OF_GAP = 0.3
-"""And at most this part of the narrowest gap outside."""
 OF_NECK, OF_ALL = 0.3, 0.1
 """And at most the first part of the narrowest place of a face, but no less on its account than the
 second part of what it is else: over narrower ones a mesher may draw edges together."""

@@ -29,7 +29,6 @@ BISECTIONS = 18
 NEIGHBOURS = 4
 LEAST = 60
 """Samples of the smallest face."""
-TRIES = 6
 WIDER = 0.5
 """Face samples are looked for in a box wider than the face's edges by this part."""
 MOVED = 0.01
