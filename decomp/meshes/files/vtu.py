@@ -6,29 +6,20 @@ Point data: `unprojected`. Field data: for each name an array of one number, `vo
 `surface NAME`, `curve NAME` and `point NAME` the tag, `region NAME` the number. (Arrays of strings
 would be plainer, but meshio refuses files with any.)
 Fields asked for have their own names; elements that are no tetrahedra have -1.
-Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
 """
 
 from __future__ import annotations
 
-import base64
-import sys
-from typing import Any
-from xml.sax.saxutils import quoteattr
-
 import numpy as np
-from numpy.typing import NDArray
 
+from decomp.files.vtk_xml import data_array, grid, section
 from decomp.meshes.convert import VTK_TYPES, region_names, region_numbers
 from decomp.meshes.group import NOUNS
 from decomp.meshes.lower import lower_blocks
 from decomp.meshes.model import TetMesh
 from decomp.meshes.ordering import in_vtk_order
 from decomp.meshes.parts import looked_up
-from decomp.plain import plain
 from decomp.vectors import Ints
-
-TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "uint8": "UInt8"}
 
 
 def encoded(mesh: TetMesh) -> bytes:
@@ -43,41 +34,29 @@ def encoded(mesh: TetMesh) -> bytes:
     thin = len(none) - len(mesh.triangles)
     region = np.concatenate([none[:thin], region_numbers(mesh, 2), region_numbers(mesh, 3)])
     condition = np.concatenate([none[:thin], _conditions(mesh), np.full(len(mesh.tets), -1)])
-    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
-    lines = [
-        '<?xml version="1.0"?>',
-        f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{order}" '
-        'header_type="UInt64">',
-        "<UnstructuredGrid>",
-        *_field_data(mesh),
-        f'<Piece NumberOfPoints="{len(mesh.points)}" NumberOfCells="{len(widths)}">',
-        "<Points>",
-        _array("Points", mesh.points),
-        "</Points>",
-        "<Cells>",
-        _array("connectivity", np.concatenate([block.reshape(-1) for block in blocks])),
-        _array("offsets", np.cumsum(widths, dtype=np.int64)),
-        _array("types", np.repeat(kinds, [len(block) for block in blocks]).astype(np.uint8)),
-        "</Cells>",
-        "<PointData>",
-        _array("unprojected", unprojected),
-        *(_array(name, values) for name, values in mesh.point_data.items()),
-        "</PointData>",
-        '<CellData Scalars="group">',
-        _array("group", np.concatenate([*(each.tags for each in lower), mesh.tet_tags])),
-        _array("region", region),
-        _array("bc", condition),
-        *(
-            _array(name, np.concatenate([none, values]))
-            for name, values in mesh.cell_data.items()
-            if name != "region"
-        ),
-        "</CellData>",
-        "</Piece>",
-        "</UnstructuredGrid>",
-        "</VTKFile>",
-    ]
-    return "\n".join(lines).encode() + b"\n"
+    cells = {
+        "connectivity": np.concatenate([block.reshape(-1) for block in blocks]),
+        "offsets": np.cumsum(widths, dtype=np.int64),
+        "types": np.repeat(kinds, [len(block) for block in blocks]).astype(np.uint8),
+    }
+    data = {
+        "group": np.concatenate([*(each.tags for each in lower), mesh.tet_tags]),
+        "region": region,
+        "bc": condition,
+    }
+    further = {name: values for name, values in mesh.cell_data.items() if name not in data}
+    data |= {name: np.concatenate([none, values]) for name, values in further.items()}
+    return grid(
+        len(mesh.points),
+        len(widths),
+        _field_data(mesh),
+        [
+            *section("Points", {"Points": mesh.points}),
+            *section("Cells", cells),
+            *section("PointData", {"unprojected": unprojected, **mesh.point_data}),
+            *section('CellData Scalars="group"', data),
+        ],
+    )
 
 
 def _conditions(mesh: TetMesh) -> Ints:
@@ -89,16 +68,5 @@ def _conditions(mesh: TetMesh) -> Ints:
 def _field_data(mesh: TetMesh) -> list[str]:
     numbers = {f"{NOUNS[group.dimension]} {group.name}": group.tag for group in mesh.groups}
     numbers |= {f"region {name}": k for k, name in enumerate(region_names(mesh))}
-    arrays = (_array(name, np.array([number]), True) for name, number in numbers.items())
-    return ["<FieldData>", *arrays, "</FieldData>"]
-
-
-def _array(name: str, values: NDArray[Any], counted: bool = False) -> str:
-    width = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
-    if counted:
-        width += f' NumberOfTuples="{len(values)}"'
-    data = np.ascontiguousarray(values).tobytes()
-    text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
-    kind = TYPES[values.dtype.name]
-    label = quoteattr(plain(name))
-    return f'<DataArray type="{kind}" Name={label}{width} format="binary">{text}</DataArray>'
+    one = ' NumberOfTuples="1"'
+    return [data_array(name, np.array([number]), one) for name, number in numbers.items()]

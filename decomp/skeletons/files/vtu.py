@@ -1,24 +1,19 @@
-"""VTK's unstructured grids (.vtu), as ParaView and PyVista read them.
-
-Arrays are inline base64 with a 64-bit length before them; numbers keep all their digits.
-"""
+"""VTK's unstructured grids (.vtu), as ParaView and PyVista read them."""
 
 from __future__ import annotations
 
-import base64
-import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from decomp.files.vtk_xml import data_array, grid, section
 from decomp.skeletons.files.elements import Elements
 from decomp.skeletons.files.sheet_tables import Table, region_tables, sheet_tables
 
 Arrays: TypeAlias = Mapping[str, NDArray[Any]]
 VTK_TRIANGLE, VTK_LINE, VTK_VERTEX = 5, 3, 1
-TYPES = {"float64": "Float64", "int64": "Int64", "int32": "Int32", "int8": "Int8", "uint8": "UInt8"}
 
 
 def encoded(
@@ -55,44 +50,21 @@ def encoded(
         "seam": parts.seam.astype(np.int32),
         **(at_triangles or {}),
     }
-    order = "LittleEndian" if sys.byteorder == "little" else "BigEndian"
-    lines = [
-        '<?xml version="1.0"?>',
-        f'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="{order}" '
-        'header_type="UInt64">',
-        "<UnstructuredGrid>",
-        *_field(sheet_tables(parts.sheet_kinds, parts.sheet_names) | region_tables(parts.methods)),
-        f'<Piece NumberOfPoints="{len(parts.points)}" NumberOfCells="{len(sizes)}">',
-        *_section("Points", {"Points": parts.points}),
-        *_section("Cells", cells),
-        *_section('PointData Scalars="radius"', {"radius": parts.radius, **(at_points or {})}),
-        *_section('CellData Scalars="sheet"', data),
-        "</Piece>",
-        "</UnstructuredGrid>",
-        "</VTKFile>",
-    ]
-    return "\n".join(lines).encode("ascii") + b"\n"
+    return grid(
+        len(parts.points),
+        len(sizes),
+        _field(sheet_tables(parts.sheet_kinds, parts.sheet_names) | region_tables(parts.methods)),
+        [
+            *section("Points", {"Points": parts.points}),
+            *section("Cells", cells),
+            *section('PointData Scalars="radius"', {"radius": parts.radius, **(at_points or {})}),
+            *section('CellData Scalars="sheet"', data),
+        ],
+    )
 
 
-def _field(tables: Mapping[str, Table]) -> list[str]:
-    if not tables:
-        return []
-    arrays = []
+def _field(tables: Mapping[str, Table]) -> Iterator[str]:
     for name, table in tables.items():
         words = [f'NumberOfTuples="{len(table.values)}"']
         words += [f'ComponentName{k}="{column}"' for k, column in enumerate(table.columns)]
-        arrays.append(_array(name, table.values, f" {' '.join(words)}"))
-    return ["<FieldData>", *arrays, "</FieldData>"]
-
-
-def _section(tag: str, arrays: Arrays) -> list[str]:
-    inner = [_array(name, values) for name, values in arrays.items()]
-    return [f"<{tag}>", *inner, f"</{tag.split()[0]}>"]
-
-
-def _array(name: str, values: NDArray[Any], more: str = "") -> str:
-    width = f' NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
-    data = np.ascontiguousarray(values).tobytes()
-    text = base64.b64encode(np.uint64(len(data)).tobytes() + data).decode("ascii")
-    kind = TYPES[values.dtype.name]
-    return f'<DataArray type="{kind}" Name="{name}"{width}{more} format="binary">{text}</DataArray>'
+        yield data_array(name, table.values, f" {' '.join(words)}")
