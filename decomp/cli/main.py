@@ -119,7 +119,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _compiling() -> None:
-    complain("decomp: compiling kernels (once, half a minute; `decomp warm` does it beforehand)")
+    complain("decomp: compiling kernels (once, a minute; `decomp warm` does it beforehand)")
 
 
 def program() -> NoReturn:

@@ -14,9 +14,9 @@ def register(commands: Any) -> None:
     parser: argparse.ArgumentParser = commands.add_parser(
         "warm",
         help="compile the kernels now, which the first command does otherwise",
-        description="Compile all numerical kernels, once for each installation: half a minute to "
-        "a minute. Without it the first command that needs them does so. They are kept beside "
-        "the package or, where that is read-only, in the user's cache directory "
+        description="Compile all numerical kernels, once for each installation, which "
+        "takes about a minute. Without it the first command that needs them does so. They are kept "
+        "beside the package or, where that is read-only, in the user's cache directory "
         "(NUMBA_CACHE_DIR names another).",
     )
     parser.set_defaults(run=run)

@@ -60,7 +60,17 @@ def inlined(function: F) -> F:
     return _only_from_kernels(_compiled(function, **options))
 
 
-def _compiled(function: F, **options: bool) -> F:
+def spliced(function: F) -> F:
+    """A scalar kernel that is put into the kernels that call it before they are compiled.
+
+    Each kernel that is compiled by itself is optimised with all that it calls, which takes seconds
+    where that is the search for the nearest site. This one is not: a step of a larger kernel.
+    """
+    options = {"_nrt": False, "no_cpython_wrapper": True}
+    return _only_from_kernels(_compiled(function, **options, inline="always"))
+
+
+def _compiled(function: F, **options: bool | str) -> F:
     common: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
     common.update(options)
     compiled: Any = njit(**common)(function)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from decomp.carriers.compiled_carriers import Triple
-from decomp.kernels.compiled import inner, scalar
+from decomp.kernels.compiled import inner, scalar, spliced
 from decomp.kernels.records import Record
 from decomp.sites.measure import NONE
 from decomp.skeletons.balls.probing import Probe, candidate_foot, inside, nearest
@@ -81,7 +81,7 @@ def polish(probe: Probe, k: int, q: Array, n: Array, r: float, size: float, seco
     return r
 
 
-@inner
+@spliced
 def touched(probe: Probe, x: float, y: float, z: float) -> tuple[bool, int, float, Triple]:
     """What a ball at a point of the region touches; nothing if the point is not in it.
 
@@ -95,7 +95,7 @@ def touched(probe: Probe, x: float, y: float, z: float) -> tuple[bool, int, floa
     return False, NONE, 0.0, (x, y, z)
 
 
-@inner
+@spliced
 def shrink_one(probe: Probe, q: Array, n: Array, size: float, balls: Shrunk, i: int) -> None:
     """The maximal ball at a point q (3,) with normal n (3,), into row i; see `shrink`."""
     feet, state, candidates = balls.feet, balls.state, balls.candidates

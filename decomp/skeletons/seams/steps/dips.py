@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-from decomp.kernels.compiled import inner
+from decomp.kernels.compiled import inner, spliced
 from decomp.sites.octree import locate
 from decomp.skeletons.balls.probing import APART, Probe, candidate_foot, inside, nearest
 from decomp.skeletons.balls.supports import SupportTable
@@ -112,7 +112,7 @@ def gap_to(probe: Probe, k: int, track: Track, row: int) -> tuple[bool, float, f
     return False, away - radius, along / away - track.slopes[row]
 
 
-@inner
+@spliced
 def only_touches(probe: Probe, track: Track, here: int, row: int, length: float) -> bool:
     """Whether what is nearer at a row than the seam's sites is so by no more than the tolerance.
 
@@ -131,7 +131,7 @@ def only_touches(probe: Probe, track: Track, here: int, row: int, length: float)
     return bool(bend > 0.0 and gap - far_slope**2 / (2.0 * bend) >= -zero)
 
 
-@inner
+@spliced
 def _nearer(
     table: SupportTable, probe: Probe, track: Track, here: int, spare: int, dip: Dip
 ) -> float:

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import inf
 from typing import NamedTuple
 
-from decomp.kernels.compiled import inner, scalar
+from decomp.kernels.compiled import inner, scalar, spliced
 from decomp.skeletons.balls.probing import HOLDS, INTRUDED, JOINED, another
 from decomp.skeletons.seams.steps.changes import ROUGH, change_on, leaves_between
 from decomp.skeletons.seams.steps.course import Course, returns
@@ -109,7 +109,7 @@ def _halted(last: int, why: int, contact: int) -> March:
     return March(HALTED, last, 0.0, 0.0, -1.0, why, contact, False)
 
 
-@inner
+@spliced
 def _sought(course: Course, march: March) -> March:
     """From SEEKING: a step ahead, which is sound, or too long, or has a change on it."""
     track, last = course.track, march.last
@@ -146,7 +146,7 @@ def _shortened(last: int, step: float, shortest: float) -> March:
     return _halted(last, STUCK, -1) if step < shortest else _seeking(last, step)
 
 
-@inner
+@spliced
 def _joined(course: Course, row: int) -> bool:
     """Whether a further contact is as near at the point in a row."""
     track = course.track
@@ -163,7 +163,7 @@ def _narrow(course: Course, march: March) -> bool:
     return close or not march.low < middle < march.high
 
 
-@inner
+@spliced
 def _narrowed(course: Course, march: March) -> March:
     """In NARROWING: the change is before or behind the middle, as measured from the last point."""
     track, last, low, high = course.track, march.last, march.low, march.high
@@ -180,7 +180,7 @@ def _narrowed(course: Course, march: March) -> March:
     return March(NARROWING, last, step, middle, high, why, contact, march.failed)
 
 
-@inner
+@spliced
 def _found(course: Course, march: March) -> March:
     """From NARROWING: the change is known, and there are points on both its sides."""
     table, track, low, base = course.table, course.track, march.low, march.last
